@@ -16,12 +16,10 @@
 #include "output/archive/archive.h"
 #include "output/join/join.h"
 #include "output/sinks/file.h"
-#include "program/drawing_target.h"
 #include "program/movies.h"
+#include "program/outputs.h"
 #include "program/service.h"
 #include "program/sha256.h"
-#include "program/target.h"
-#include "program/video_target.h"
 
 /* ---------------------------------------------------------------- kinds */
 
@@ -158,24 +156,20 @@ static int has_number(lua_State *L) {
   return 1;
 }
 
-/* is_video(path) -> whether the request makes a video of this name, of one or more frames */
-static int is_video(lua_State *L) {
-  lua_pushboolean(L, cs_video_target_is_wanted(cs_service_session(L)->request, 1));
-  return 1;
-}
-
-/* is_drawing(path) -> whether the request makes a drawing of this name */
-static int is_drawing(lua_State *L) {
+/* output(path) -> the kind of the file that the verb makes of this name if there is one frame, such
+ * as "videos"; nil: the verb makes no such file */
+static int output(lua_State *L) {
   const cs_request *request = cs_service_session(L)->request;
-  lua_pushboolean(L, cs_drawing_target_is_wanted(luaL_checkstring(L, 1), request));
+  const cs_output *row = cs_output_of(request, luaL_checkstring(L, 1), 1);
+  lua_pushstring(L, row ? row->kind : NULL);
   return 1;
 }
 
-/* refuse_target(path): ends the verb if the request cannot write a picture of this name. */
+/* refuse_target(path): ends the verb if the request cannot write a file of this name. */
 static int refuse_target(lua_State *L) {
   const cs_session *session = cs_service_session(L);
-  cs_service_require(L,
-                     cs_target_refuse(session->context, luaL_checkstring(L, 1), session->request));
+  cs_service_require(
+      L, cs_output_refuse(session->context, session->request, luaL_checkstring(L, 1), 1));
   return 0;
 }
 
@@ -273,13 +267,11 @@ static int join(lua_State *L) {
 }
 
 void cs_service_add_files(lua_State *L) {
-  static const luaL_Reg services[] = {CS_SERVICE(kind),           CS_SERVICE(make_folders),
-                                      CS_SERVICE(entries),        CS_SERVICE(resolve),
-                                      CS_SERVICE(working_folder), CS_SERVICE(has_number),
-                                      CS_SERVICE(is_video),       CS_SERVICE(refuse_target),
-                                      CS_SERVICE(save),           CS_SERVICE(save_archive),
-                                      CS_SERVICE(save_private),   CS_SERVICE(join),
-                                      CS_SERVICE(sha256),         CS_SERVICE(is_drawing),
-                                      {"is_movie", cs_movies_is}, {NULL, NULL}};
+  static const luaL_Reg services[] = {
+      CS_SERVICE(kind),         CS_SERVICE(make_folders),   CS_SERVICE(entries),
+      CS_SERVICE(resolve),      CS_SERVICE(working_folder), CS_SERVICE(has_number),
+      CS_SERVICE(output),       CS_SERVICE(refuse_target),  CS_SERVICE(save),
+      CS_SERVICE(save_archive), CS_SERVICE(save_private),   CS_SERVICE(join),
+      CS_SERVICE(sha256),       {"is_movie", cs_movies_is}, {NULL, NULL}};
   cs_service_add(L, services);
 }

@@ -23,11 +23,10 @@
 #include "model/scene/inspect.h"
 #include "model/scene/scene.h"
 #include "program/change.h"
-#include "program/refusals.h"
+#include "program/outputs.h"
 #include "program/service.h"
 #include "program/soundtrack.h"
 #include "program/stage.h"
-#include "program/target.h"
 #include "program/verbs.h"
 #include "program/view.h"
 
@@ -122,7 +121,7 @@ static int numbers(lua_State *L) {
   const char *output = luaL_optstring(L, 2, NULL);
   cs_sequence *list =
       cs_userdata_push_holder(L, "celspan.program.numbers", sizeof *list, release_numbers);
-  cs_service_require(L, cs_target_frames(&self(L)->script, request, output, list));
+  cs_service_require(L, cs_output_frames(&self(L)->script, request, output, list));
   lua_createtable(L, (int)list->count, 0);
   for (size_t i = 0; i < list->count; i++) {
     lua_pushinteger(L, list->frames[i]);
@@ -153,9 +152,10 @@ static int refuse(lua_State *L) {
   cs_service_require(L, cs_request_parse(cs_verb_named("render"), lua_rawlen(L, 2),
                                          (char *const *)words, &request));
   request.spaces = session->request->spaces;
-  cs_service_require(L, cs_refusals_early(session->context, &request));
+  request.output = cs_output_own(&request);
+  cs_service_require(L, cs_output_refuse_early(session->context, &request));
   if (lua_toboolean(L, 3))
-    cs_service_require(L, cs_refusals_of_film(script, &request));
+    cs_service_require(L, cs_output_refuse_film(script, &request));
   return 0;
 }
 

@@ -23,9 +23,9 @@
 #include "program/confine.h"
 #include "program/log.h"
 #include "program/lua_verb.h"
+#include "program/outputs.h"
 #include "program/progress.h"
 #include "program/spaces.h"
-#include "program/target.h"
 #include "program/text_file.h"
 #include "program/verbs.h"
 
@@ -54,10 +54,10 @@ static cs_exit refuse_verb(const char *name) {
   return cs_report_usage("unknown verb '%s' ('celspan help' lists them)", name);
 }
 
-/* `render` is a verb in C, but with --table, and for a Lottie animation, it runs in Lua. */
+/* A verb in C runs in Lua with --table, and for an output that a part in Lua writes. */
 static bool is_in_lua(const cs_request *request) {
   return !request->verb->run || cs_request_has(request, "--table") ||
-         (request->verb->run == cs_verb_render && cs_target_is_lottie(request));
+         (request->output && request->output->part);
 }
 
 /* Standard input can be read only once, and some verbs run a script several times. */
@@ -126,6 +126,7 @@ static cs_exit parse_and_run(const cs_verb *verb, size_t count, char *const *wor
   cs_request_read(&request, "--progress", &style);
   cs_progress_choose(style);
   CS_TRY_EXIT(begin_log(&request));
+  request.output = cs_output_own(&request);
   return run(&request);
 }
 

@@ -24,7 +24,7 @@
 #include "output/sinks/file.h"
 #include "output/sinks/pixels.h"
 #include "output/sinks/sink.h"
-#include "program/drawing_target.h"
+#include "program/outputs.h"
 #include "program/service.h"
 #include "program/shown.h"
 #include "program/target.h"
@@ -469,45 +469,24 @@ static int compare(lua_State *L) {
   return 1;
 }
 
-static int write_plane(lua_State *L, const celspan_frame_desc *frame, const char *path,
-                       const celspan_file_desc *file) {
-  cs_service_try(L, cs_plane_write_frame(cs_service_session(L)->context, frame, path,
-                                         cs_plane_depth(file->coding->depth)));
-  return 0;
-}
-
-/* A drawing is made of a script's frame, or of a plane. */
-static int write_drawing(lua_State *L, const cs_still *still, const celspan_frame_desc *frame,
-                         const char *path) {
-  const cs_session *session = cs_service_session(L);
-  cs_service_try(L, still->plane ? cs_drawing_target_write_plane(session->context, still->plane,
-                                                                 path, session->request)
-                                 : cs_drawing_target_write_frame(session->context, frame, NULL,
-                                                                 path, session->request));
-  return 0;
-}
-
 /* convert(in, out): writes the picture that a file shows, under the request, to another file. */
 static int convert(lua_State *L) {
   const cs_session *session = cs_service_session(L);
-  const char *input = luaL_checkstring(L, 1), *output = luaL_checkstring(L, 2);
+  const char *input = luaL_checkstring(L, 1), *path = luaL_checkstring(L, 2);
+  const cs_output *output = cs_output_of(session->request, path, 1);
   cs_still *stills =
       cs_userdata_push_holder(L, "celspan.program.stills", 2 * sizeof *stills, close_stills);
   celspan_coding coding;
   celspan_file_desc file = cs_target_file(session->request, &coding);
   celspan_frame_desc frame;
-  bool is_plane = cs_plane_is_wanted(output, file.format);
-  if (is_plane && !cs_shown_is_film(input))
+  if (strcmp(output->kind, "planes") == 0 && !cs_shown_is_film(input))
     cs_service_require(
-        L,
-        cs_report_usage("%s: a plane is made of a script or a drawing, not of a picture", output));
+        L, cs_report_usage("%s: a plane is made of a script or a drawing, not of a picture", path));
   cs_service_require(L, cs_shown_open(session->context, session->request, input, true, stills));
   cs_service_require(L, cs_shown_frame(session->request, stills, &frame));
-  if (is_plane)
-    return write_plane(L, &frame, output, &file);
-  if (cs_drawing_target_is_wanted(output, session->request))
-    return write_drawing(L, stills, &frame, output);
-  cs_service_try(L, cs_still_write(session->context, stills, &frame, output, &file));
+  const cs_page page = {.frame = &frame, .plane = stills->plane, .path = path, .file = &file};
+  cs_service_try(L, output->write ? output->write(session->context, session->request, output, &page)
+                                  : cs_still_write(session->context, stills, &frame, path, &file));
   return 0;
 }
 
@@ -571,9 +550,11 @@ static int write_frame(lua_State *L) {
   celspan_file_desc file = cs_target_file(session->request, &coding);
   celspan_frame_desc desc;
   expose_first(L, &desc);
-  if (cs_plane_is_wanted(path, file.format))
-    return write_plane(L, &desc, path, &file);
-  cs_service_try(L, celspan_frame_write(session->context, &desc, path, &file, NULL));
+  const cs_output *output = cs_output_of(session->request, path, 1);
+  const cs_page page = {.frame = &desc, .path = path, .file = &file};
+  cs_service_try(L, output && output->write
+                        ? output->write(session->context, session->request, output, &page)
+                        : celspan_frame_write(session->context, &desc, path, &file, NULL));
   return 0;
 }
 

@@ -10,10 +10,10 @@
 #include "base/context.h"
 #include "base/open.h"
 #include "base/sort.h"
+#include "frames/apart/apart.h"
 #include "frames/process/journal.h"
 #include "output/sinks/file_copy.h"
 #include "program/commit.h"
-#include "program/layers_target.h"
 #include "program/spaces.h"
 #include "program/target.h"
 
@@ -55,11 +55,11 @@ static cs_hash hash_options(const cs_script *script, const cs_request *request,
   cs_hash_text(&hash, cs_request_text(request, "--format"));
   if (cs_request_has(request, "--strip"))
     cs_hash_text(&hash, "strip");
-  cs_apart_contents apart = cs_layers_target_read(request);
-  if (apart.has_layers)
+  if (cs_request_has(request, "--layers"))
     cs_hash_text(&hash, "layers");
-  if (apart.mattes != CS_APART_MATTES_NONE)
-    cs_hash_word(&hash, apart.mattes);
+  cs_apart_mattes mattes;
+  if (cs_request_read(request, "--cryptomatte", &mattes))
+    cs_hash_word(&hash, mattes);
   cs_hash_text(&hash, script->film.title);
   cs_hash_number(&hash, script->film.frames_second);
   cs_hash_word(&hash, script->film.count > 1);

@@ -12,17 +12,12 @@
 
 #include "base/context.h"
 #include "frames/apart/apart.h"
-#include "frames/film/shoot.h"
-#include "frames/plane/plane.h"
-#include "frames/video/video.h"
 #include "output/sinks/temporary.h"
 #include "program/change.h"
-#include "program/drawing_target.h"
-#include "program/layers_target.h"
+#include "program/outlets.h"
+#include "program/outputs.h"
 #include "program/progress.h"
-#include "program/raw_frame.h"
 #include "program/record.h"
-#include "program/refusals.h"
 #include "program/summary.h"
 #include "program/target.h"
 #include "program/verbs.h"
@@ -36,173 +31,62 @@ typedef struct render_job {
   const cs_request *request;
   const char *output; /* NULL: digests alone */
   bool has_digests, resumes, keeps_going;
-  cs_apart_contents apart;
-  bool has_noted; /* that layers do not add up to the frame, or that a page has a picture */
+  bool has_noted; /* that layers do not add up to the frame */
   cs_frame_change change;
   celspan_frame_desc frame;
   cs_sequence frames;
   cs_sequence played; /* the frames of the film whose sound is heard; none: those of `frames` */
+  const cs_output *row;
   cs_progress progress;
   cs_summary summary;
-  cs_record record;            /* of frames that are files */
-  cs_whole whole;              /* of a film that is one file */
-  bool surveys;                /* frames are built, but not rendered */
-  const struct stream *stream; /* NULL: frames are files, or are only hashed */
-  cs_video video;              /* of the stream `into_video`; the next two are of theirs */
-  cs_plane_film *plane;
-  cs_plot *pages;
-  cs_slots raw;    /* of frames that go to standard output; none: they are written in rows */
-  int64_t *failed; /* frames; owned */
+  cs_record record;        /* of frames that are files */
+  cs_whole whole;          /* of a film that is one file */
+  bool surveys;            /* frames are built, but not rendered */
+  const cs_outlet *outlet; /* NULL: frames are files, or are only hashed */
+  cs_into into;            /* of the outlet */
+  int64_t *failed;         /* frames; owned */
   size_t failed_count, failed_capacity;
   cs_exit outcome; /* of the reported failure */
 } render_job;
 
-/* ---------------------------------------------------------------- streams */
+/* ---------------------------------------------------------------- outlets */
 
-/* Where frames go that are no files of their own. */
-typedef struct stream {
-  celspan_status (*put)(void *user, const cs_shoot_put *one);
-  /* For those that are made in slots; see frames/film/shoot.h. */
-  celspan_status (*give)(void *user, size_t slot);
-  celspan_status (*repeat)(void *user);
-  /* NULL: it is standard output, and not a file that all frames share. */
-  cs_exit (*open)(render_job *job);
-  celspan_status (*commit)(render_job *job);
-  void (*discard)(render_job *job);
-} stream;
+static bool is_video(const render_job *job) { return job->outlet == &cs_outlet_video; }
 
-static celspan_coding raw_coding(const render_job *job, const celspan_frame_desc *frame) {
-  celspan_coding coding = cs_target_coding(job->request);
-  coding.space = frame->space;
-  return coding;
-}
+static bool is_whole(const render_job *job) { return job->outlet && job->outlet->is_file; }
 
-static celspan_status put_raw(void *user, const cs_shoot_put *one) {
-  const render_job *job = user;
-  const celspan_coding coding = raw_coding(job, one->desc);
-  return job->raw.count ? cs_raw_frame_make(one->context, one->desc, &coding, &job->raw, one->slot)
-                        : cs_raw_frame_print(one->context, one->desc, &coding);
-}
-
-static celspan_status give_raw(void *user, size_t slot) {
-  const render_job *job = user;
-  return cs_raw_frame_give(job->script->context, &job->raw, slot);
-}
-
-static const stream into_output = {.put = put_raw, .give = give_raw};
-
-static cs_exit open_video(render_job *job) {
-  const cs_sequence *played = job->played.count ? &job->played : &job->frames;
-  return cs_video_target_open(&job->video, job->script, job->request, &job->frame, played);
-}
-
-static celspan_status put_video(void *user, const cs_shoot_put *one) {
+static celspan_status put(void *user, const cs_shoot_put *one) {
   render_job *job = user;
-  return cs_video_put(&job->video, one->context, one->desc, one->slot, one->frame->digest);
+  return job->outlet->put(&job->into, one);
 }
 
-static celspan_status give_video(void *user, size_t slot) {
-  return cs_video_give(&((render_job *)user)->video, slot);
-}
-
-static celspan_status repeat_video(void *user) {
-  return cs_video_repeat(&((render_job *)user)->video);
-}
-
-static celspan_status commit_video(render_job *job) { return cs_video_finish(&job->video); }
-
-static void discard_video(render_job *job) { cs_video_discard(&job->video); }
-
-static const stream into_video = {put_video,  give_video,   repeat_video,
-                                  open_video, commit_video, discard_video};
-
-static cs_exit open_plane(render_job *job) {
-  const cs_film_info *film = &job->script->film;
-  celspan_depth depth = CELSPAN_DEPTH_DEFAULT;
-  cs_request_read(job->request, "--depth", &depth);
-  const cs_plane_film_desc desc = {.width = film->width,
-                                   .height = film->height,
-                                   .frames_second = film->frames_second,
-                                   .depth = cs_plane_depth(depth)};
-  celspan_context *context = job->script->context;
-  return cs_report_failure(context, cs_plane_film_create(context, job->output, &desc, &job->plane),
-                           NULL);
-}
-
-static celspan_status put_plane(void *user, const cs_shoot_put *one) {
-  const cs_shoot_frame *frame = one->frame;
-  return cs_plane_film_put(((render_job *)user)->plane, one->desc,
-                           frame->is_named ? &frame->scene : NULL);
-}
-
-static celspan_status commit_plane(render_job *job) { return cs_plane_film_commit(job->plane); }
-
-static void discard_plane(render_job *job) { cs_plane_film_discard(job->plane); }
-
-static const stream into_plane = {
-    .put = put_plane, .open = open_plane, .commit = commit_plane, .discard = discard_plane};
-
-static cs_exit open_pages(render_job *job) {
-  celspan_context *context = job->script->context;
-  cs_plot_desc desc = cs_drawing_target_read(job->request);
-  desc.title = job->script->film.title;
-  return cs_report_failure(context, cs_plot_begin(context, job->output, &desc, &job->pages), NULL);
-}
-
-static celspan_status put_page(void *user, const cs_shoot_put *one) {
+static celspan_status give(void *user, size_t slot) {
   render_job *job = user;
-  cs_plot_facts facts;
-  CS_TRY(cs_plot_add_frame(job->pages, one->desc, &facts));
-  if (!job->has_noted) {
-    const cs_plot_desc drawing = cs_drawing_target_read(job->request);
-    cs_drawing_target_report(job->script->context, job->output, &drawing, &facts);
-    job->has_noted = facts.picture_width > 0;
+  return job->outlet->give(&job->into, slot);
+}
+
+static celspan_status repeat(void *user) {
+  render_job *job = user;
+  return job->outlet->repeat(&job->into);
+}
+
+static void add_outlet(const render_job *job, cs_shoot *shoot) {
+  const cs_outlet *outlet = job->outlet;
+  shoot->put = put;
+  shoot->slots = outlet->slots ? outlet->slots(&job->into) : 0;
+  if (shoot->slots > 0) {
+    shoot->give = give;
+    shoot->repeat = outlet->repeat ? repeat : NULL;
   }
-  return CELSPAN_OK;
 }
-
-static celspan_status commit_pages(render_job *job) { return cs_plot_end(job->pages, CELSPAN_OK); }
-
-static void discard_pages(render_job *job) { (void)!cs_plot_end(job->pages, CELSPAN_CANCELLED); }
-
-static const stream into_pages = {
-    .put = put_page, .open = open_pages, .commit = commit_pages, .discard = discard_pages};
-
-/* Only where the frames are known, it is known whether the output is one picture, a film of planes,
- * a PDF of several pages or a video. */
-static const stream *choose_stream(const render_job *job) {
-  const cs_request *request = job->request;
-  const bool has_several = job->frames.count > 1;
-  return has_several && cs_target_is_plane_film(request)         ? &into_plane
-         : has_several && cs_drawing_target_is_film(request)     ? &into_pages
-         : cs_video_target_is_wanted(request, job->frames.count) ? &into_video
-         : job->output && cs_target_is_stream(job->output)       ? &into_output
-                                                                 : NULL;
-}
-
-static bool is_video(const render_job *job) { return job->stream == &into_video; }
-
-static bool is_whole(const render_job *job) { return job->stream && job->stream->open; }
 
 /* ---------------------------------------------------------------- files */
 
-/* Whether files have more than the frame. */
-static bool is_apart(const render_job *job) {
-  return job->apart.has_layers || job->apart.mattes != CS_APART_MATTES_NONE;
-}
-
-static celspan_status put_layers(void *user, celspan_context *context,
-                                 const celspan_frame_desc *desc, const char *path,
-                                 const celspan_file_desc *file) {
+static celspan_status write(void *user, celspan_context *context, const celspan_frame_desc *desc,
+                            const char *path, const celspan_file_desc *file) {
   const render_job *job = user;
-  return cs_layers_target_write(context, job->apart, desc, path, file);
-}
-
-static celspan_status put_drawing(void *user, celspan_context *context,
-                                  const celspan_frame_desc *desc, const char *path,
-                                  const celspan_file_desc *file) {
-  const render_job *job = user;
-  return cs_drawing_target_write_frame(context, desc, file->title, path, job->request);
+  const cs_page page = {.frame = desc, .path = path, .file = file};
+  return job->row->write(context, job->request, job->row, &page);
 }
 
 static bool keep(void *user, cs_shoot_frame *frame) {
@@ -242,7 +126,7 @@ static const char *destination_of(const render_job *job, const cs_shoot_frame *f
   const char *output = job->output;
   return !output         ? "hashed"
          : is_whole(job) ? output
-         : job->stream   ? "standard output"
+         : job->outlet   ? "standard output"
                          : frame->path;
 }
 
@@ -250,8 +134,8 @@ static const char *destination_of(const render_job *job, const cs_shoot_frame *f
 static void tell_layers(render_job *job, int64_t number, const cs_film_frame *built) {
   char why[CS_APART_WHY];
   const celspan_coding coding = cs_target_coding(job->request);
-  if (!job->apart.has_layers || job->has_noted ||
-      cs_apart_sums(built->exposures, built->count, job->apart.format, &coding,
+  if (!cs_request_has(job->request, "--layers") || job->has_noted ||
+      cs_apart_sums(built->exposures, built->count, job->row->layers, &coding,
                     job->script->film.space, why))
     return;
   cs_report_note("frame %" PRId64 ": its layers over each other are not the frame: %s", number,
@@ -362,75 +246,51 @@ static bool keeps_nothing(const render_job *job) {
   return cs_request_read(job->request, "--memory", &memory) && memory == 0;
 }
 
-static void add_stream(const render_job *job, cs_shoot *shoot) {
-  const stream *into = job->stream;
-  shoot->put = into->put;
-  shoot->slots = is_video(job) ? job->video.slots.count : job->raw.count;
-  if (shoot->slots > 0) {
-    shoot->give = into->give;
-    shoot->repeat = into->repeat;
-  }
-}
-
 static celspan_status run_shoot(render_job *job) {
   cs_shoot shoot = {.context = job->script->context,
                     .film = job->script->film,
                     .frames = &job->frames,
-                    .pattern = job->stream ? NULL : job->output,
+                    .pattern = job->outlet ? NULL : job->output,
                     .frame = job->frame,
                     .file = describe_file(job),
                     .has_digests = job->has_digests,
                     .keeps_going = job->keeps_going,
                     .keeps_nothing = keeps_nothing(job),
                     .user = job,
-                    .write = is_apart(job)                                            ? put_layers
-                             : cs_drawing_target_is_wanted(job->output, job->request) ? put_drawing
-                                                                                      : NULL,
-                    .hash = is_apart(job) ? cs_apart_hash : NULL,
+                    .write = job->row->write ? write : NULL,
+                    .hash = job->row->is_apart ? cs_apart_hash : NULL,
                     .keep = job->resumes ? keep : NULL,
                     .build = build,
                     .finished = finished,
                     .tick = tick};
-  if (job->stream)
-    add_stream(job, &shoot);
+  if (job->outlet)
+    add_outlet(job, &shoot);
   return cs_shoot_run(&shoot);
 }
 
-/* Frames go to standard output from slots, if there are several and workers can make them beside
- * each other. */
-static celspan_status open_raw(render_job *job) {
-  const celspan_coding coding = raw_coding(job, &job->frame);
-  return job->stream == &into_output && job->frames.count > 1 && !keeps_nothing(job)
-             ? cs_raw_frame_slots(job->script->context, &job->frame, &coding, &job->raw)
-             : CELSPAN_OK;
-}
-
 static cs_exit shoot(render_job *job) {
-  celspan_status status = open_raw(job);
-  if (status == CELSPAN_OK)
-    status = run_shoot(job);
-  cs_slots_close(&job->raw, job->script->context);
+  celspan_status status = run_shoot(job);
   return job->outcome != CS_EXIT_OK ? job->outcome
                                     : cs_report_failure(job->script->context, status, NULL);
 }
 
 /* Gives the file its final name, and adds it to the record. */
-static celspan_status complete_whole(render_job *job) {
+static celspan_status complete(render_job *job) {
   celspan_context *context = job->script->context;
   context->contents = job->resumes ? &job->whole.file.contents : NULL;
-  celspan_status status = job->stream->commit(job);
+  celspan_status status = job->outlet->commit(&job->into);
   context->contents = NULL;
   return status == CELSPAN_OK && job->resumes ? cs_whole_finish(&job->whole) : status;
 }
 
 /* The frames of a video are finished only when the whole file is. */
-static cs_exit shoot_whole(render_job *job) {
+static cs_exit shoot_into(render_job *job) {
   cs_exit outcome = shoot(job);
   if (outcome != CS_EXIT_OK) { /* it has been reported */
-    job->stream->discard(job);
+    job->outlet->discard(&job->into);
     return outcome;
   }
-  CS_TRY_EXIT(cs_report_failure(job->script->context, complete_whole(job), NULL));
+  CS_TRY_EXIT(cs_report_failure(job->script->context, complete(job), NULL));
   return is_video(job) ? cs_video_target_add_poster(job->script, job->request, &job->frame)
                        : CS_EXIT_OK;
 }
@@ -441,7 +301,7 @@ static void start_progress(render_job *job) {
 
 static cs_exit render_all(render_job *job) {
   start_progress(job);
-  return report_end(job, is_whole(job) ? shoot_whole(job) : shoot(job));
+  return report_end(job, job->outlet ? shoot_into(job) : shoot(job));
 }
 
 static cs_exit resume_frames(render_job *job) {
@@ -453,8 +313,15 @@ static cs_exit resume_frames(render_job *job) {
   return outcome;
 }
 
-static cs_exit make_whole(render_job *job) {
-  CS_TRY_EXIT(job->stream->open(job));
+static cs_exit make_into(render_job *job) {
+  job->into = (cs_into){.script = job->script,
+                        .request = job->request,
+                        .path = job->output,
+                        .frame = &job->frame,
+                        .frames = &job->frames,
+                        .played = job->played.count ? &job->played : &job->frames,
+                        .keeps_nothing = keeps_nothing(job)};
+  CS_TRY_EXIT(job->outlet->open(&job->into));
   return render_all(job);
 }
 
@@ -487,7 +354,7 @@ static cs_exit keep_or_make_whole(render_job *job) {
       return report_kept(job);
   }
   CS_TRY_EXIT(begin_whole(job));
-  return make_whole(job);
+  return make_into(job);
 }
 
 static cs_exit resume_whole(render_job *job) {
@@ -519,19 +386,28 @@ static cs_exit retime(render_job *job) {
   return cs_report_failure(context, status, "--fps");
 }
 
+/* Only where the frames are known, it is known whether the output is one picture, a film of planes,
+ * a PDF of several pages or a video. */
+static cs_exit choose_output(render_job *job) {
+  const size_t count = job->frames.count;
+  CS_TRY_EXIT(cs_output_refuse(job->script->context, job->request, job->output, count));
+  job->row = cs_output_of(job->request, job->output, count);
+  bool is_file = job->row->holds == CS_HOLDS_EITHER &&
+                 (count == 1 || !cs_output_is_whole(job->row, job->output));
+  job->outlet = is_file ? NULL : job->row->outlet;
+  return CS_EXIT_OK;
+}
+
 static cs_exit make_frames(render_job *job) {
-  const cs_request *request = job->request;
   if (job->frames.count == 0)
     return report_no_frames(job);
   CS_TRY_EXIT(cs_change_refuse(job->script, &job->change, &job->frames));
   if (job->output)
     cs_temporary_sweep(job->output, cs_sequence_matches);
-  job->stream = choose_stream(job);
+  CS_TRY_EXIT(choose_output(job));
   CS_TRY_EXIT(retime(job));
-  if (is_whole(job))
-    return job->resumes ? resume_whole(job) : make_whole(job);
-  if (job->output && !job->stream)
-    CS_TRY_EXIT(cs_refusals_of_output(job->script->context, request, job->frames.count));
+  if (job->outlet)
+    return job->resumes ? resume_whole(job) : make_into(job);
   return job->resumes ? resume_frames(job) : render_all(job);
 }
 
@@ -542,7 +418,6 @@ static cs_exit run(cs_script *script, const cs_request *request) {
                     .has_digests = cs_request_has(request, "--hash"),
                     .resumes = cs_request_has(request, "--resume"),
                     .keeps_going = cs_request_has(request, "--keep-going"),
-                    .apart = cs_layers_target_read(request),
                     .change = cs_change_read(request)};
   const cs_film_frame unknown = {0};
   cs_exit outcome = cs_view_frame(request, script->film.width, script->film.height, &job.frame);
@@ -550,7 +425,7 @@ static cs_exit run(cs_script *script, const cs_request *request) {
   if (outcome == CS_EXIT_OK)
     outcome = cs_change_lay_onion(script, request, &job.frame);
   if (outcome == CS_EXIT_OK)
-    outcome = cs_target_frames(script, request, job.output, &job.frames);
+    outcome = cs_output_frames(script, request, job.output, &job.frames);
   if (outcome == CS_EXIT_OK)
     outcome = make_frames(&job);
   cs_mem_free(script->context->memory, job.failed, job.failed_capacity * sizeof *job.failed);
@@ -560,6 +435,6 @@ static cs_exit run(cs_script *script, const cs_request *request) {
 }
 
 cs_exit cs_verb_render(celspan_context *context, const cs_request *request) {
-  CS_TRY_EXIT(cs_refusals_early(context, request));
+  CS_TRY_EXIT(cs_output_refuse_early(context, request));
   return cs_script_run(context, request, run);
 }

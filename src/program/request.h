@@ -51,6 +51,7 @@ typedef struct cs_request {
   char *const *script_arguments; /* the arguments after "--" */
   size_t script_argument_count;
   const struct cs_spaces *spaces; /* NULL: colours are coded along a curve */
+  const struct cs_output *output; /* the row of -o (output.h); NULL: there is none, or not known */
   cs_given_antialias antialias;   /* of --antialias; it is kept here because frames point to it */
 } cs_request;
 

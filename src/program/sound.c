@@ -13,9 +13,9 @@
 #include "output/sinks/file.h"
 #include "output/sinks/temporary.h"
 #include "plugins/sound/wave_file.h"
+#include "program/outputs.h"
 #include "program/progress.h"
 #include "program/soundtrack.h"
-#include "program/target.h"
 #include "program/verbs.h"
 #include "program/whole.h"
 
@@ -171,7 +171,7 @@ static cs_exit run(cs_script *script, const cs_request *request) {
   bool is_float;
   cs_sequence frames = {0};
   CS_TRY_EXIT(refuse_request(script, request, &is_float));
-  cs_exit outcome = cs_target_frames(script, request, NULL, &frames);
+  cs_exit outcome = cs_output_frames(script, request, NULL, &frames);
   if (outcome == CS_EXIT_OK)
     outcome = make(script, request, &frames, is_float);
   cs_sequence_finish(&frames);

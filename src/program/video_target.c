@@ -15,10 +15,8 @@ enum {
 };
 
 static const cs_video_format *format_of(const cs_request *request) {
-  const char *output = cs_request_text(request, "-o");
   const char *format = cs_request_text(request, "--format");
-  bool has_file = output && strcmp(output, "-") != 0;
-  return has_file ? cs_video_format_named(format ? format : cs_file_ending(output)) : NULL;
+  return cs_video_format_named(format ? format : cs_file_ending(cs_request_text(request, "-o")));
 }
 
 /* NULL: the format cannot contain the codec of --codec. */
@@ -50,18 +48,7 @@ static cs_video_options options_of(const cs_request *request, const cs_video_cod
   return options;
 }
 
-const char *const cs_video_target_options[] = {"--codec", "--quality",  "--crf",      "--fps",
-                                               "--loop",  "--max-size", "--loudness", NULL};
-
 /* ---------------------------------------------------------------- refusals */
-
-bool cs_video_target_is_wanted(const cs_request *request, size_t frame_count) {
-  const cs_video_format *format = format_of(request);
-  if (!format || !format->is_picture)
-    return format != NULL;
-  bool is_still = frame_count == 1 && !format->codes_stills;
-  return !is_still && !cs_sequence_has_number(cs_request_text(request, "-o"));
-}
 
 static bool is_limited(const cs_video_codec *codec) {
   return codec->most_crf > 0 && !codec->module;
@@ -118,40 +105,23 @@ static cs_exit refuse_codec(const cs_request *request, const cs_video_format *fo
   return CS_EXIT_OK;
 }
 
-static cs_exit refuse_options(const cs_request *request, const cs_video_format *format) {
-  const char *output = cs_request_text(request, "-o");
-  CS_TRY_EXIT(refuse_codec(request, format));
+cs_exit cs_video_target_refuse(celspan_context *context, const cs_request *request,
+                               const char *path) {
+  (void)context;
+  if (cs_request_has(request, "--strict") && cs_video_target_runs_ffmpeg(request))
+    return cs_report_usage("--strict starts no programs, and ffmpeg makes videos: render frames, "
+                           "and make the video of them");
+  CS_TRY_EXIT(refuse_codec(request, format_of(request)));
   cs_video_options options = options_of(request, codec_of(request));
-  if (cs_sequence_has_number(output))
-    return cs_report_usage("%s: a video is one file: leave the frame's number out of its name",
-                           output);
-  if (cs_request_has(request, "--keep-going"))
-    return cs_report_usage("%s: --keep-going leaves frames out, and a video has them all: leave it "
-                           "out, or render shot.####.png",
-                           output);
-  if (cs_request_has(request, "--loop") && !format->plays)
-    return cs_report_usage("%s: players decide how often %s is played: leave --loop out, or write "
-                           ".gif, .webp, .apng or .avif",
-                           output, format->name);
-  if (options.coding.transfer == CELSPAN_TRANSFER_LINEAR ||
-      options.coding.transfer == CELSPAN_TRANSFER_CINEON)
-    return cs_report_usage("%s: a video is coded as srgb or rec709: leave --colour out", output);
   if (options.codec->module && options.coding.alpha == CELSPAN_ALPHA_PREMULTIPLIED)
     return cs_report_usage("%s: films in %s hold straight alpha: leave --alpha out, or render "
                            "shot.####.avif",
-                           output, options.codec->title);
-  if (options.coding.depth == CELSPAN_DEPTH_HALF || options.coding.depth == CELSPAN_DEPTH_FLOAT)
-    return cs_report_usage("%s: a video takes --depth 8 or 16", output);
+                           path, options.codec->title);
   if (!cs_video_pixels(&options))
     return cs_report_usage(
-        "%s: %s holds 8 bits%s: leave --depth 16 out, or write .mov", output, options.codec->name,
+        "%s: %s holds 8 bits%s: leave --depth 16 out, or write .mov", path, options.codec->name,
         options.codec->deep_pixels ? " where it has alpha (--background takes it away)" : "");
   return cs_video_colours_set(request, &options);
-}
-
-cs_exit cs_video_target_refuse(const cs_request *request, size_t frame_count) {
-  const cs_video_format *format = format_of(request);
-  return format->is_picture && frame_count == 0 ? CS_EXIT_OK : refuse_options(request, format);
 }
 
 /* 4:2:0 gives one colour to 2 x 2 pixels, and most encoders do not support half of such a square at
@@ -305,7 +275,6 @@ cs_exit cs_video_target_refuse_frames(const cs_script *script, const cs_request 
 
 cs_exit cs_video_target_open(cs_video *out, cs_script *script, const cs_request *request,
                              const celspan_frame_desc *frame, const cs_sequence *played) {
-  CS_TRY_EXIT(cs_video_target_refuse(request, SIZE_MAX));
   CS_TRY_EXIT(cs_video_target_refuse_frames(script, request, frame));
   cs_video_desc desc = describe(script, request, frame);
   CS_TRY_EXIT(cs_video_colours_set(request, &desc.options));

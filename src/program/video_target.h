@@ -8,16 +8,11 @@
 #include "frames/video/video.h"
 #include "program/script.h"
 
-/* The options that only videos have; NULL at the end. */
-extern const char *const cs_video_target_options[];
-
-/* Whether OUT is a video; frame_count 0: not known yet. */
-bool cs_video_target_is_wanted(const cs_request *request, size_t frame_count);
 /* Whether ffmpeg makes such a video. */
 bool cs_video_target_runs_ffmpeg(const cs_request *request);
-/* Refuses options that videos do not have. OK, or reported. frame_count 0: not known yet, and the
- * name of a single picture is not refused. */
-cs_exit cs_video_target_refuse(const cs_request *request, size_t frame_count);
+/* Refuses what the codec does not have. OK, or reported. path: that of -o. */
+cs_exit cs_video_target_refuse(celspan_context *context, const cs_request *request,
+                               const char *path);
 /* Refuses frames of a size, or a rate, that the codec does not have. OK, or reported. */
 cs_exit cs_video_target_refuse_frames(const cs_script *script, const cs_request *request,
                                       const celspan_frame_desc *frame);

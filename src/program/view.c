@@ -2,7 +2,7 @@
 
 #include "frames/process/interrupt.h"
 #include "output/sinks/strip.h"
-#include "program/drawing_target.h"
+#include "program/output.h"
 
 /* Film units to pixels, rounded, at least 1; -1 if the result is greater than a frame may be. */
 static int32_t pixels(double units, double scale) {
@@ -18,12 +18,16 @@ static int32_t draft_side(int32_t side) {
   return half + half % 2;
 }
 
+/* Of a drawing, --scale is that of pictures in it. */
+static bool is_drawing(const cs_request *request) {
+  return request->output && cs_output_lists(request->output->takes, "--flat");
+}
+
 static cs_exit set_size(const cs_request *request, celspan_frame_desc *out) {
   int32_t size[2];
   double scale = 1;
   bool has_size = cs_request_read(request, "--size", size);
-  if (!cs_drawing_target_is_output(request) && cs_request_read(request, "--scale", &scale) &&
-      has_size)
+  if (!is_drawing(request) && cs_request_read(request, "--scale", &scale) && has_size)
     return cs_report_usage("--size and --scale say the same thing twice: give one of them");
   out->width = has_size ? size[0] : pixels(out->film_width, scale);
   out->height = has_size ? size[1] : pixels(out->film_height, scale);

@@ -5,7 +5,6 @@
 #include "lua/module/subtitles.h"
 #include "program/poster.h"
 #include "program/soundtrack.h"
-#include "program/video_target.h"
 
 celspan_status cs_whole_open(cs_whole *whole, const cs_script *script, const cs_request *request,
                              const celspan_frame_desc *frame) {
@@ -22,8 +21,10 @@ bool cs_whole_is_known(const cs_whole *whole) {
 
 /* The options that only files of whole films have. */
 static void hash_options(cs_hash *hash, const cs_request *request) {
-  for (const char *const *option = cs_video_target_options; *option; option++)
-    cs_hash_text(hash, cs_request_text(request, *option));
+  static const char *const options[] = {"--codec", "--quality",  "--crf",     "--fps",
+                                        "--loop",  "--max-size", "--loudness"};
+  for (size_t i = 0; i < sizeof options / sizeof *options; i++)
+    cs_hash_text(hash, cs_request_text(request, options[i]));
   cs_hash_text(hash, cs_request_text(request, "--background"));
   cs_hash_word(hash, cs_request_has(request, "--no-dither"));
 }

@@ -316,13 +316,14 @@ describe("--layers cels", function()
   end)
 
   it("is refused where no layers can be written", function()
-    local only = "--layers: only OpenEXR, PNG, OpenRaster and Photoshop files have"
+    local only = "it is only for files with layers (exr, openexr, png, ora, psd)"
     bench:write("film.lua", SUMS)
     refused("--layers cels -o 'x.#.tif'", only)
     refused("--layers cels -o x.mp4", only)
     refused("--layers cels --hash", only)
-    refused("--layers cels --hash -o 'x.#.exr'", "leave it or --layers out")
-    refused("--layers cels --colour srgb -o 'x.#.exr'", "linear light: leave --colour out")
+    refused("--layers cels --hash -o 'x.#.exr'", "exr with layers takes no --hash")
+    refused("--layers cels --colour srgb -o 'x.#.exr'",
+      "exr with layers takes --colour linear, and not srgb")
     refused("--layers cels --depth 8 -o 'x.#.exr'", "EXR files hold depth half, float, not 8")
     refused("--layers cels --strip 1/1 -o 'x.#.exr'", "strips can be joined only as")
     refused("--layers parts -o 'x.#.exr'", "cels")

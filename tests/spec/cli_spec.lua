@@ -262,8 +262,8 @@ complete_words celspan render film.lua -- -
     end)
 
     it("says which verb makes videos", function()
-      usage_error("convert in.png out.mp4", "is a video")
-      usage_error("convert in.png out.webm", "is a video")
+      usage_error("convert in.png out.mp4", "mp4 is for videos, which 'celspan render' makes")
+      usage_error("convert in.png out.webm", "webm is for videos")
     end)
 
     it("refuses impossible output files before it runs the script", function()
@@ -273,14 +273,15 @@ complete_words celspan render film.lua -- -
         usage_error("convert x.png y.heic", more)
       end
       for _, words in ipairs { "render x.lua -o y --format json", "convert x.png y.lottie" } do
-        usage_error(words, "'celspan render' makes of a name such as film.json or film.lottie")
+        usage_error(words, words:find "json" and "json takes no --format: leave it out"
+          or "lottie is for Lottie animations, which 'celspan render' makes")
       end
       usage_error("render x.lua y.mp4", "unexpected argument 'y.mp4': write '-o y.mp4' if that is")
       usage_error("render x.lua -o y", "the format is unknown")
       usage_error("render x.lua -o y.png --format xyz", 'the format "xyz" cannot be written')
       usage_error("render x.lua -o y.png --depth half", "PNG holds 8 or 16 bits")
-      usage_error("convert x.png -", "the format is unknown")
-      usage_error("render x.lua -o - --format png", "--format png")
+      usage_error("convert x.png -", "- is for raw frames")
+      usage_error("render x.lua -o - --format png", "standard output takes no --format")
     end)
 
     it("counts operands", function()

@@ -371,11 +371,13 @@ describe("--cryptomatte", function()
       for i = 1, 256 do cels[i] = celspan.cel { box(i, 0, 1, 8, "#fff"):named("n" .. i) } end
       return still(256, 8, celspan.rostrum(cels))]])
     for arguments, words in pairs {
-      ["--cryptomatte cels -o x.png"] = "only OpenEXR files have mattes",
-      ["--cryptomatte cels -o x.mp4"] = "only OpenEXR files have mattes",
+      ["--cryptomatte cels -o x.png"] =
+        "no --cryptomatte: leave it out; it is only for files with layers (exr",
+      ["--cryptomatte cels -o x.mp4"] = "mp4 takes no --cryptomatte",
       ["--cryptomatte objects -o x.exr"] = "cels or names",
-      ["--cryptomatte cels --hash -o x.exr"] = "leave it or --cryptomatte out",
-      ["--cryptomatte cels --colour srgb -o x.exr"] = "linear light: leave --colour out",
+      ["--cryptomatte cels --hash -o x.exr"] = "exr with layers takes no --hash",
+      ["--cryptomatte cels --colour srgb -o x.exr"] =
+        "exr with layers takes --colour linear, and not srgb",
       ["--cryptomatte names -o x.exr"] = "more than 255 pieces with different names",
     } do
       local code, _, err = bench:celspan_inside("render film.lua --progress none %s", arguments)

@@ -432,7 +432,7 @@ return celspan.film { size = { %d, %d }, fps = 24, frames = %d, grain = { amount
     bench:write("film.lua", FILM)
     refused("-o bad.mp4 --loudness -14", "the film has no sound: leave --loudness out")
     refused("-o bad.mp4 --loudness 3", "LUFS from -60 to 0, such as -14 or -23")
-    refused("-o bad.#.png --loudness -14", "--loudness is only for videos")
+    refused("-o bad.#.png --loudness -14", "png takes no --loudness")
   end)
 
   --- The samples of a WAV file of floats.
@@ -695,8 +695,8 @@ return ({ shot = shot, cut = cut { shot, { film = shot, name = "b" }, shot } })[
   it("is refused with a codec that its file does not contain", function()
     refused("-o out.mp4 --codec prores", "out.mp4: --codec prores: mp4 contains h264, h265, av1")
     refused("-o out.gif --codec h264", "gif contains gif")
-    refused("-o out.#.png --codec h264", "--codec is only for videos")
-    refused("-o out.#.png --fps 12", "--fps is only for videos")
+    refused("-o out.#.png --codec h264", "png takes no --codec")
+    refused("-o out.#.png --fps 12", "png takes no --fps")
     refused("-o out.mp4 --fps 0", "frames per second from 0.01 to 1000")
     refused("-o out.mp4 --fps 30/0", "frames per second from 0.01 to 1000")
     refused("-o out.mp4 --max-size 8", "at least 10,000 bytes, such as 500k, 8M")
@@ -709,7 +709,7 @@ return ({ shot = shot, cut = cut { shot, { film = shot, name = "b" }, shot } })[
     refused("-o out.mkv --codec vp9 --depth 16", "vp9 holds 8 bits where it has alpha")
     refused("-o out.mp4 --max-size 8M --crf 20", "--max-size chooses the quality")
     refused("-o out.mov --max-size 8M", "--max-size is for h264, h265, av1 and vp9")
-    refused("-o out.#.png --max-size 8M", "--max-size is only for videos")
+    refused("-o out.#.png --max-size 8M", "png takes no --max-size")
     refused("-o out.mp4 --crf 64", "a whole number from 0 to 63")
     refused("-o out.mp4 --crf 52", "--crf of h264 is a whole number from 0 to 51")
     refused("-o out.mov --crf 20", "prores has no --crf: leave it out, or give --quality")

@@ -346,16 +346,18 @@ return celspan.film { size = { 60, 40 }, frames = 1, frame = function()
   end)
 
   it("has no pixels to speak of", function()
-    refused(2, "--crop is for pictures, and a drawing has no pixels",
+    refused(2, "x.svg: svg takes no --crop: leave it out; it is only for raw frames (-), vid",
       "render light.lua -o x.svg --crop 0,0,9,9")
-    refused(2, "--depth is for pictures", "render light.lua -o x.svg --depth 8")
-    refused(2, "--flat is for drawings", "render light.lua -o x.png --frames 1 --flat over")
+    refused(2, "svg takes no --depth", "render light.lua -o x.svg --depth 8")
+    local flat = "no --flat: leave it out; it is only for drawings (svg, pdf)"
+    refused(2, flat, "render light.lua -o x.png --frames 1 --flat over")
     bench:write("light.0001.png", "no picture")
     for _, output in ipairs { "-o x.mp4", "-o -", "--hash", "-o x.plane" } do
-      refused(2, "--flat is for drawings", "render light.lua --flat over " .. output)
-      refused(2, "--precision is for drawings", "render light.lua --precision 2 " .. output)
+      refused(2, flat, "render light.lua --flat over " .. output)
+      refused(2, "no --precision: leave it out; it is only for drawings (svg)",
+        "render light.lua --precision 2 " .. output)
     end
-    refused(2, "--flat is for drawings", "convert 'light.####.png' x.mp4 --flat over")
+    refused(2, flat, "convert 'light.####.png' x.mp4 --flat over")
     refused(2, "--precision", "render light.lua -o x.svg --precision 10")
     bench:write("light.png", "no picture")
     bench:write("light.mp4", "no movie")
@@ -485,11 +487,11 @@ return celspan.film { size = { 60, 40 }, frames = 2, space = "srgb", frame = fun
   end)
 
   it("refuses what it does not have", function()
-    refused(2, "--precision is for SVG", "render light.lua -o x.pdf --precision 3")
-    refused(2, "--crop is for pictures", "render light.lua -o x.pdf --crop 0,0,9,9")
-    refused(2, "a PDF file is made whole: leave --keep-going out, or render shot.####.pdf",
+    refused(2, "pdf takes no --precision", "render light.lua -o x.pdf --precision 3")
+    refused(2, "pdf takes no --crop", "render light.lua -o x.pdf --crop 0,0,9,9")
+    refused(2, "leave --keep-going out, or render shot.####.pdf",
       "render light.lua -o x.pdf --keep-going")
-    refused(2, "a PDF file of several frames is made in one run; render shot.####.pdf",
+    refused(2, "one pdf file holds all frames, and is made in one run: leave --task out",
       "render light.lua -o x.pdf --task 1/2")
     refused(6, "a side of PDF has at most 14400", "render light.lua -o x.pdf --size 14401x9")
     bench:write("light.png", "no picture")

@@ -255,7 +255,7 @@ describe("a job of a table", function()
   it("refuses what the run of a row would refuse", function()
     local refusals = {
       ["-o '{name}.xyz'"] = "cannot be written",
-      ["-o '{name}.png' --frames 1 --max-size 2M"] = "--max-size is only for videos",
+      ["-o '{name}.png' --frames 1 --max-size 2M"] = "png takes no --max-size",
       ["-o '{name}.mp4' --fit cover"] = "give --size",
       ["-o '{name}.mp4' --size 61x41"] = "needs an even width and height",
       ["-o '{name}.mp4' --codec ffv1"] = "mp4 contains",
@@ -497,19 +497,19 @@ describe("celspan farm", function()
 
   it("refuses what every task would refuse", function()
     for options, text in pairs {
-      ["-o o.#.png --quality 50"] = "--quality is only for videos",
-      ["-o o.#.png --fps 12"] = "--fps is only for videos",
-      ["-o o.#.png --loudness -14"] = "--loudness is only for videos",
-      ["-o o.#.tif --layers cels"] = "Photoshop files have layers",
-      ["-o o.#.exr --layers cels --colour rec709"] = "such files are in linear light",
+      ["-o o.#.png --quality 50"] = "png takes no --quality",
+      ["-o o.#.png --fps 12"] = "png takes no --fps",
+      ["-o o.#.png --loudness -14"] = "png takes no --loudness",
+      ["-o o.#.tif --layers cels"] = "tif takes no --layers",
+      ["-o o.#.exr --layers cels --colour rec709"] = "exr with layers takes --colour linear",
       ["-o o.#.png --dither --depth 16"] = "--dither makes 8 bits",
-      ["-o o.plane"] = "a plane file of several frames is made in one run",
-      ["-o o.plane --keep-going"] = "a plane file is made whole",
+      ["-o o.plane"] = "one plane file holds all frames, and is made in one run",
+      ["-o o.plane --keep-going"] = "one plane file holds all frames",
       ["-o o.#.xyz"] = "cannot be written",
-      ["-o o.#.svg"] = "a farm makes no drawings and no Lottie animations",
-      ["-o o.#.pdf"] = "a farm makes no drawings and no Lottie animations",
-      ["-o o.#.x --format svg"] = "a farm makes no drawings",
-      ["-o o.json"] = "a farm makes no drawings and no Lottie animations",
+      ["-o o.#.svg"] = "svg is for drawings, which 'celspan render' makes",
+      ["-o o.#.pdf"] = "pdf is for drawings, which 'celspan render' makes",
+      ["-o o.#.x --format svg"] = "svg is for drawings",
+      ["-o o.json"] = "json is for Lottie animations",
       ["-o o.#.png --fit cover"] = "give --size",
       ["-o o.#.png --crop 50,0,20,20"] = "is not within the frame",
     } do

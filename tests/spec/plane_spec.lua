@@ -85,7 +85,8 @@ describe("8-bit colours of a plane", function()
     assert.equal(bench:read "plain.plane", bench:read "sixteen.plane")
     assert.equal(8, bench:read("eight.001.plane"):byte(13) & 8)
     done "compare eight.plane sixteen.plane --fail 0.012"
-    refused(2, "a plane takes --depth 8 or 16", "render film.lua -o x.plane --depth half")
+    refused(2, "plane takes --depth 8 or 16, and not half",
+      "render film.lua -o x.plane --depth half")
     assert.has_error(function() celspan.plane(disc(80), { depth = "half" }) end,
       "plane: field 'depth' must be 8 or 16")
   end)
@@ -366,7 +367,8 @@ end }
 
   it("is not made where options ask for pixels", function()
     for _, option in ipairs { "--size 9x9", "--crop 0,0,9,9", "--hash", "--draft" } do
-      refused(2, "a plane has no pixels", "render film.lua --frames 1 -o a.plane " .. option)
+      refused(2, "a.plane: plane takes no " .. option:match "^%S+",
+        "render film.lua --frames 1 -o a.plane " .. option)
     end
     refused(3, "a blurred object is in view", "render blurred.lua -o a.plane")
     assert.is_nil(bench:read "a.plane")

@@ -267,7 +267,7 @@ return celspan.rostrum { size = { 256, 48 }, celspan.cel { celspan.rect { 0, 0, 
       "--ocio config.ocio --display wall --view raw")
     refused("--colour and --view both say", "--ocio config.ocio --view film --colour srgb")
     refused("none is named by --ocio or OCIO", "--colour coded")
-    refused("--layers: such files are in linear light: leave --display and --view out",
+    refused("openexr with layers takes no --view",
       "--ocio config.ocio --view film --layers cels --format openexr")
     refused("name one with --ocio or OCIO", "--view film")
   end)

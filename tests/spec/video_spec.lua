@@ -215,10 +215,10 @@ describe("a video", function()
       end
       local code, _, err = celspan "-o out.mp4 --loop 2"
       assert.equal(2, code)
-      assert.truthy(err:find("players decide how often mp4 is played", 1, true), err)
+      assert.truthy(err:find("mp4 takes no --loop: leave it out; it is only for", 1, true), err)
       code, _, err = celspan "-o out.#.png --loop 2"
       assert.equal(2, code)
-      assert.truthy(err:find("--loop is only for videos", 1, true), err)
+      assert.truthy(err:find("png takes no --loop", 1, true), err)
       render "-o out.gif --frames 1-4 --resume"
       render "-o out.gif --frames 1-4 --resume --loop 4"
       assert.equal(3, number("out.gif", "NETSCAPE2.0", 2, "<I2"))
@@ -483,15 +483,15 @@ end }]])
 
   it("refuses options that a video cannot have", function()
     for arguments, sentence in pairs {
-      ["-o out.mp4 --keep-going"] = "--keep-going leaves frames out",
+      ["-o out.mp4 --keep-going"] = "leave --keep-going out, or render shot.####.png",
       ["-o out.####.mp4"] = "leave the frame's number out",
       ["-o out.mp4 --depth float"] = "takes --depth 8 or 16",
-      ["-o out.mp4 --colour linear"] = "coded as srgb or rec709",
+      ["-o out.mp4 --colour linear"] = "mp4 takes --colour srgb or rec709, or",
       ["-o out.webm --depth 16"] = "vp9 holds 8 bits where it has alpha",
       ["-o out.gif --depth 16"] = "gif holds 8 bits",
       ["-o out.mp4 --quality 101"] = "a whole number from 0 to 100",
-      ["-o out.####.png --quality 50"] = "--quality is only for videos",
-      ["-o - --quality 50"] = "--quality is only for videos",
+      ["-o out.####.png --quality 50"] = "png takes no --quality",
+      ["-o - --quality 50"] = "standard output takes no --quality",
       ["-o out.mp4 --size 20000x20"] = "a video has at most 16384 a side",
       ["-o out.mp4 --size 20x20000"] = "a video has at most 16384 a side",
       ["-o out.mp4 --size 1x7"] = "h264 needs an even width and height in mp4: give --size 2x6",

@@ -5,7 +5,6 @@
 #include "base/clock.h"
 #include "base/hash_table.h"
 #include "frames/film/frame_pipeline.h"
-#include "frames/plane/plane.h"
 #include "model/scene/scene.h"
 #include "model/scene/walk.h"
 #include "output/sinks/coder.h"
@@ -195,10 +194,6 @@ static celspan_status make_frame(const job *j, celspan_context *context,
     return shoot->put(shoot->user, &(cs_shoot_put){context, desc, task->slot, frame});
   if (!shoot->pattern)
     return celspan_frame_digest(context, desc, shoot->file.coding, frame->digest);
-  if (cs_plane_is_wanted(frame->path, shoot->file.format))
-    return cs_plane_write_frame(
-        context, desc, frame->path,
-        cs_plane_depth(shoot->file.coding ? shoot->file.coding->depth : CELSPAN_DEPTH_DEFAULT));
   celspan_file_desc file = describe_file(j, frame->number, desc);
   if (shoot->write)
     return shoot->write(shoot->user, context, desc, frame->path, &file);

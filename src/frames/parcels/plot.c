@@ -3,7 +3,6 @@
 
 #include <math.h>
 #include <string.h>
-#include <strings.h>
 
 #include "frames/parcels/boxes.h"
 #include "frames/parcels/plot_picture.h"
@@ -16,16 +15,6 @@
 #define GROWN 1.6     /* pixels: how far an area continues under another one */
 #define OPAQUE 0.999f /* alpha, rounded */
 enum { PICTURE_SIDE = 16384 /* pixels, at most */, PROOF_SIDE = 512 };
-
-static bool is_named(const char *path, const char *format, const char *name) {
-  return strcasecmp(format ? format : cs_file_ending(path), name) == 0;
-}
-
-bool cs_plot_is_wanted(const char *path, const char *format) {
-  return is_named(path, format, "svg") || cs_plot_is_pdf(path, format);
-}
-
-bool cs_plot_is_pdf(const char *path, const char *format) { return is_named(path, format, "pdf"); }
 
 /* A page that is being written. */
 typedef struct drawing {

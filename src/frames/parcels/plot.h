@@ -11,11 +11,6 @@
 #include "base/context.h"
 #include "celspan/plane.h"
 
-/* Whether a file of this name is such a drawing. format: NULL: the ending of the name says it. */
-bool cs_plot_is_wanted(const char *path, const char *format);
-/* The same for PDF alone. */
-bool cs_plot_is_pdf(const char *path, const char *format);
-
 typedef enum cs_flat {
   CS_FLAT_OVER,   /* there are strokes under the areas */
   CS_FLAT_REGIONS /* there are only areas, which do not overlap */

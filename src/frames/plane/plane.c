@@ -359,7 +359,7 @@ static bool begins_as_plane(const char *path) {
 }
 
 bool cs_plane_accepts(const char *path) {
-  return cs_plane_is_wanted(path, NULL) || begins_as_plane(path);
+  return strcasecmp(cs_file_ending(path), "plane") == 0 || begins_as_plane(path);
 }
 
 cs_plane_facts cs_plane_count(const celspan_plane *plane) {
@@ -376,8 +376,4 @@ cs_plane_facts cs_plane_count(const celspan_plane *plane) {
     facts.gradients += gradients;
   }
   return facts;
-}
-
-bool cs_plane_is_wanted(const char *path, const char *format) {
-  return strcasecmp(format ? format : cs_file_ending(path), "plane") == 0;
 }

@@ -12,9 +12,6 @@ bool cs_plane_accepts(const char *path);
 CELSPAN_CHECKED celspan_status cs_plane_choose(celspan_context *context, const char *name,
                                                const celspan_plane *plane, int32_t frame,
                                                celspan_plane **out);
-/* Whether a file of this name is written as a plane. format: NULL: the ending of the name says
- * it. */
-bool cs_plane_is_wanted(const char *path, const char *format);
 /* The depth of a plane, 8 or 16, where a file of pixels would have one. */
 static inline int32_t cs_plane_depth(celspan_depth depth) {
   return depth == CELSPAN_DEPTH_8 ? 8 : 16;

@@ -96,7 +96,7 @@ end
 
 local kind = program.kind(request[1])
 local is_files = kind == "files"
-if program.is_drawing(request[2]) and not HAS_OUTLINES[kind] then
+if program.output(request[2]) == "drawings" and not HAS_OUTLINES[kind] then
   program.usage("%s: a drawing is made of a script or a drawing or a plane, not of a picture",
     request[2])
 end

@@ -253,6 +253,11 @@ local function log_of(path)
   return { start = (start or path) .. ".", ending = ending or "" }
 end
 
+--- Refuses what only `render` makes, or nobody.
+local function refuse_name(output)
+  if not program.output(output) then program.refuse_target(output) end
+end
+
 local function refuse()
   local output = request.output
   if not output then program.usage "-o is missing: give -o shot.####.png, as for render" end
@@ -273,11 +278,7 @@ local function refuse()
   if request.table == "-" then
     program.usage "--table -: each task reads the table, too: give the name of a file"
   end
-  local named = request.format and "x." .. request.format or output
-  if program.has_ending(named, ".svg", ".pdf", ".json", ".lottie") then
-    program.usage("%s: a farm makes no drawings and no Lottie animations: give -o shot.####.png, "
-      .. "or use 'celspan render'", output)
-  end
+  if not request.table then refuse_name(output) end
   if request.log then refuse_log() end
   if #output > program.path_most then program.usage("%.80s...: the name is too long", output) end
 end
@@ -315,7 +316,10 @@ end
 --- differ in their length.
 local function count_rows(job, film)
   local rows = program.part("rows.lua", program, request, film)
-  for row in rows.next do refuse_run(film, row.output) end
+  for row in rows.next do
+    refuse_name(row.output)
+    refuse_run(film, row.output)
+  end
   job.rows, job.output = rows.count, request.output
   job.chunk = math.tointeger(request.chunk) or CHUNK_ROWS
   job.tasks = tasks_of(job.rows, job.chunk)
@@ -323,7 +327,7 @@ end
 
 --- Sets the numbers of frames and tasks, and the output of each task.
 local function count_tasks(job, film)
-  if program.is_video(request.output) then refuse_video(film, request.output) end
+  if program.output(request.output) == "videos" then refuse_video(film, request.output) end
   local numbers = film:numbers(request.output)
   job.frames, job.tasks, job.output = #numbers, math.tointeger(request.strips), request.output
   job.numbers = numbers

@@ -15,20 +15,7 @@ local keys = program.part("keyed.lua", text)
 local tracks = program.part("tracked.lua")
 local bake = program.part("baked.lua", program)
 
-local TAKEN = { ["-o"] = true, ["--frames"] = true, ["--scale"] = true, ["--workers"] = true,
-  ["--progress"] = true, ["--table"] = true, ["--log"] = true, ["--set"] = true,
-  ["--set-from"] = true, ["--trust"] = true, ["--strict"] = true, ["--allow"] = true,
-  ["--allow-system-fonts"] = true, ["--limit"] = true, ["--memory"] = true }
-
-if program.has_number(request.output) then
-  program.usage("%s: a Lottie file has all frames: give it a name without a number", request.output)
-end
-for _, option in ipairs(request.given) do
-  if not TAKEN[option.name] then
-    program.usage("%s: a Lottie file is made without %s: leave it out", request.output, option.name)
-  end
-end
-
+program.refuse_target(request.output)
 local film = program.film()
 local numbers = film:numbers()
 if #numbers > FRAMES_MOST then

@@ -189,7 +189,7 @@ local function build()
     local number = job.numbers and job.numbers[i] or film.first + i - 1
     if film:try(number) then film:faults(function() end) end
   end
-  if program.is_video(job.output) then film:check_tracks(true) end
+  if program.output(job.output) == "videos" then film:check_tracks(true) end
 end
 
 --- The files that the film reads outside of the folders that are parameters.
