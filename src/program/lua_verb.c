@@ -14,6 +14,7 @@
 #include "lua/bind/put.h"
 #include "lua/module/core.h"
 #include "program/movies.h"
+#include "program/outputs.h"
 #include "program/script.h"
 #include "program/service.h"
 #include "program/verb_text.h"
@@ -82,12 +83,15 @@ static void push_options(lua_State *L, const cs_option *options) {
     cs_put_text(L, "value", options->value);
     cs_put_text(L, "allowed", options->kind ? options->kind->allowed : NULL);
     cs_put_text(L, "help", options->help);
+    if (options->kind == &cs_argument_format)
+      cs_put_flag(L, "is_format", true);
     lua_rawseti(L, -2, i);
   }
 }
 
 /* verbs() -> a description of each verb: { name =, operands =, summary =, notes =, has_script =,
- * options = { { name =, value =, allowed =, help = }, ... } } */
+ * options = { { name =, value =, allowed =, help =, is_format = }, ... } }; is_format: its values
+ * are the names of outputs() */
 static int push_verbs(lua_State *L) {
   lua_newtable(L);
   for (const cs_verb *verb = cs_verbs; verb->name; verb++) {
@@ -101,6 +105,40 @@ static int push_verbs(lua_State *L) {
     cs_put_flag(L, "has_script", verb->has_script);
     push_options(L, verb->options);
     lua_setfield(L, -2, "options");
+    lua_rawseti(L, -2, (lua_Integer)lua_rawlen(L, -2) + 1);
+  }
+  return 1;
+}
+
+/* Pushes the words of a text, between spaces or commas. */
+static void push_words(lua_State *L, const char *text) {
+  lua_newtable(L);
+  for (lua_Integer i = 1; *(text += strspn(text, " ,")); i++) {
+    size_t size = strcspn(text, " ,");
+    lua_pushlstring(L, text, size);
+    lua_rawseti(L, -2, i);
+    text += size;
+  }
+}
+
+/* outputs() -> the rows of outputs.c: { kind =, names = { "png", ... }, makers = { verb, ... },
+ * takes = { option, ... } }; makers nil: all verbs that write pictures */
+static int push_outputs(lua_State *L) {
+  char names[CS_OUTPUT_NAMES];
+  lua_newtable(L);
+  for (const cs_output *output = cs_outputs; output->kind; output++) {
+    cs_output_names(output, names);
+    lua_createtable(L, 0, 4);
+    cs_put_text(L, "kind", output->kind);
+    push_words(L, names);
+    lua_setfield(L, -2, "names");
+    push_words(L, output->takes);
+    lua_setfield(L, -2, "takes");
+    if (output->makers)
+      push_words(L, output->makers);
+    else
+      lua_pushnil(L);
+    lua_setfield(L, -2, "makers");
     lua_rawseti(L, -2, (lua_Integer)lua_rawlen(L, -2) + 1);
   }
   return 1;
@@ -144,7 +182,8 @@ static void put_annotations(lua_State *L) {
 
 /* Pushes the table of services. */
 static void push_program(lua_State *L) {
-  static const luaL_Reg services[] = {{"verbs", push_verbs}, {NULL, NULL}};
+  static const luaL_Reg services[] = {
+      {"verbs", push_verbs}, {"outputs", push_outputs}, {NULL, NULL}};
   lua_newtable(L);
   cs_service_add(L, services);
   cs_put_text(L, "version", celspan_version());

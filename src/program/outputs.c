@@ -36,6 +36,7 @@ static cs_exit refuse_picture(celspan_context *context, const cs_request *reques
 #define SHOWN " srgb or rec709, or a space of --ocio "
 #define RENDER " render farm "
 #define DRAW " render convert "
+#define FILM " render farm convert "
 
 const cs_output cs_outputs[] = {
     {.kind = "raw frames",
@@ -46,10 +47,10 @@ const cs_output cs_outputs[] = {
     {.kind = "digests",
      .names = NO_FILE,
      .makers = " render ",
-     .takes = VIEW COLOURS DITHERS FILES "--depth --hash --strip "},
+     .takes = VIEW COLOURS DITHERS "--depth --hash --strip --format --task --keep-going "},
     {.kind = "videos",
      .names = " mp4 mkv mov webm ",
-     .makers = RENDER,
+     .makers = FILM,
      .takes = VIDEO,
      .depths = DIGITS,
      .colours = SHOWN,
@@ -59,7 +60,7 @@ const cs_output cs_outputs[] = {
      .refuse = cs_video_target_refuse},
     {.kind = "videos",
      .names = " gif webp apng ",
-     .makers = RENDER,
+     .makers = FILM,
      .takes = VIDEO "--loop ",
      .depths = DIGITS,
      .colours = SHOWN,
@@ -68,7 +69,7 @@ const cs_output cs_outputs[] = {
      .refuse = cs_video_target_refuse},
     {.kind = "videos",
      .names = " avif ",
-     .makers = RENDER,
+     .makers = FILM,
      .takes = VIDEO "--loop ",
      .depths = DIGITS,
      .colours = SHOWN,
@@ -80,7 +81,7 @@ const cs_output cs_outputs[] = {
      .names = " exr openexr ",
      .makers = RENDER,
      .is_apart = true,
-     .takes = VIEW FILES DITHERS "--depth --colour --alpha --strip --layers --cryptomatte ",
+     .takes = VIEW FILES DITHERS "--depth --colour --alpha --layers --cryptomatte ",
      .colours = " linear ",
      .layers = CS_APART_EXR,
      .write = cs_write_layers,
@@ -114,7 +115,11 @@ const cs_output cs_outputs[] = {
      .layers = CS_APART_PSD,
      .write = cs_write_layers},
     {.kind = "pictures",
+     .names = " png tga targa span ",
      .takes = VIEW COLOURS DITHERS FILES "--depth --hash --strip ",
+     .refuse = refuse_picture},
+    {.kind = "pictures",
+     .takes = VIEW COLOURS DITHERS FILES "--depth --hash ",
      .refuse = refuse_picture},
     {.kind = "planes",
      .names = " plane ",
@@ -225,7 +230,7 @@ static void add(sentence *out, const char *format, ...) {
 void cs_output_names(const cs_output *output, char out[CS_OUTPUT_NAMES]) {
   size_t length = 0;
   if (!output->names) {
-    cs_sink_file_list(out, CS_OUTPUT_NAMES);
+    cs_sink_picture_list(out, CS_OUTPUT_NAMES);
     return;
   }
   for (const char *at = output->names + 1; *at; at++) {

@@ -325,7 +325,7 @@ describe("--layers cels", function()
     refused("--layers cels --colour srgb -o 'x.#.exr'",
       "exr with layers takes --colour linear, and not srgb")
     refused("--layers cels --depth 8 -o 'x.#.exr'", "EXR files hold depth half, float, not 8")
-    refused("--layers cels --strip 1/1 -o 'x.#.exr'", "strips can be joined only as")
+    refused("--layers cels --strip 1/1 -o 'x.#.exr'", "exr with layers takes no --strip")
     refused("--layers parts -o 'x.#.exr'", "cels")
     bench:write("film.lua", HEAD .. [[local cels = {}
       for i = 1, 256 do cels[i] = celspan.cel {} end

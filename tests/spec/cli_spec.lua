@@ -142,6 +142,7 @@ complete_words celspan ""
 for verb in ${COMPREPLY[@]}; do complete_words celspan $verb -; done
 complete_words celspan render film.lua --frames -
 complete_words celspan render film.lua -- -
+complete_words celspan render film.lua --format a
 ]]):format(workbench.absolute))
       local code, out, err = shell(("bash '%s/complete.sh'"):format(folder))
       assert.same({ 0, "" }, { code, err })
@@ -154,6 +155,7 @@ complete_words celspan render film.lua -- -
       assert.same({}, all)
       assert.truthy(out:find("\ncelspan render film.lua --frames - = \n", 1, true), out)
       assert.truthy(out:find("\ncelspan render film.lua -- - = \n", 1, true), out)
+      assert.truthy(out:find("--format a = apng avif", 1, true), out)
     end)
 
     it("completes every verb and option in zsh and fish", function()
@@ -262,13 +264,13 @@ complete_words celspan render film.lua -- -
     end)
 
     it("says which verb makes videos", function()
-      usage_error("convert in.png out.mp4", "mp4 is for videos, which 'celspan render' makes")
-      usage_error("convert in.png out.webm", "webm is for videos")
+      usage_error("convert in.png out.mp4", "a video is made of numbered pictures or a movie")
+      usage_error("convert in.png out.webm", "or by 'celspan render'")
     end)
 
     it("refuses impossible output files before it runs the script", function()
       usage_error("render x.lua -o y.xyz", 'the format "xyz" cannot be written')
-      for _, more in ipairs { "png, tga, span, exr", "mp4, mkv, mov, webm", "plane", "wav" } do
+      for _, more in ipairs { "png, tga, targa, span", "mp4, mkv, mov, webm", "plane", "wav" } do
         usage_error("render x.lua -o y.avi", more)
         usage_error("convert x.png y.heic", more)
       end

@@ -495,6 +495,15 @@ describe("the cookbook", function()
   end)
 end)
 
+describe("the tables of outputs", function()
+  it("are those that the program prints", function()
+    local code, printed = run "celspan help formats"
+    assert.are.equal(0, code)
+    local page = markdown.read "docs/formats.md"
+    assert.is_truthy(page:find(printed, 1, true), printed)
+  end)
+end)
+
 describe("the pictures", function()
   it("are all shown in a page, and small", function()
     local all, text = 0, ""

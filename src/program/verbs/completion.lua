@@ -1,6 +1,6 @@
---- Completions for a shell, made from the verbs and their options: completion(verbs, shell) returns
---- the text of the file; nil for another shell.
-local verbs, shell = ...
+--- Completions for a shell, made from the verbs and their options. Returns the text of the file, or
+--- nil for another shell. formats: the names that --format takes, by the name of the verb.
+local verbs, shell, formats = ...
 
 --- A word in quotes for all three shells.
 local function quoted(word) return "'" .. word:gsub("'", "'\\''") .. "'" end
@@ -26,7 +26,7 @@ local BASH = [==[
 # Completion of celspan for bash.
 _celspan() {
   local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]}
-  local verbs="%s help" options="" valued=""
+  local verbs="%s help" options="" valued="" formats=""
   COMPREPLY=()
   if [ "$COMP_CWORD" = 1 ] || [[ $COMP_CWORD = 2 && ${COMP_WORDS[1]} = help ]]; then
     mapfile -t COMPREPLY < <(compgen -W "$verbs" -- "$word")
@@ -34,6 +34,10 @@ _celspan() {
   fi
   case ${COMP_WORDS[1]} in
 %s  esac
+  if [ "$before" = --format ]; then
+    mapfile -t COMPREPLY < <(compgen -W "$formats" -- "$word")
+    return
+  fi
   [[ $word = -* && " ${COMP_WORDS[*]:0:COMP_CWORD} " != *" -- "* ]] || return
   [[ " $valued " = *" $before "* ]] ||
     mapfile -t COMPREPLY < <(compgen -W "$options" -- "$word")
@@ -44,8 +48,9 @@ complete -o default -F _celspan celspan
 function writers.bash()
   local rows = {}
   for _, verb in ipairs(verbs) do
-    rows[#rows + 1] = ('    %s)\n      options="%s"\n      valued="%s"\n      ;;\n')
-      :format(verb.name, names_of(verb.options), names_of(verb.options, takes_value))
+    rows[#rows + 1] = ('    %s)\n      options="%s"\n      valued="%s"\n'
+      .. '      formats="%s"\n      ;;\n'):format(verb.name, names_of(verb.options),
+      names_of(verb.options, takes_value), formats[verb.name])
   end
   return BASH:format(names_of(verbs), table.concat(rows))
 end
@@ -71,8 +76,9 @@ _celspan "$@"
 --- A help text in the form for brackets of _arguments.
 local function bracketed(help) return (brief(help):gsub("[%[%]:\\]", "\\%0")) end
 
-local function zsh_option(option)
-  local value = option.value and ":" .. option.value:gsub(":", "\\:") .. ":_files" or ""
+local function zsh_option(verb, option)
+  local choice = option.is_format and (":(%s)"):format(formats[verb.name]) or ":_files"
+  local value = option.value and ":" .. option.value:gsub(":", "\\:") .. choice or ""
   local words = ("*%s[%s]%s"):format(option.name, bracketed(option.help), value)
   return "      " .. quoted(words) .. " \\\n"
 end
@@ -81,7 +87,7 @@ function writers.zsh()
   local names, rows = {}, {}
   for _, verb in ipairs(verbs) do
     local options = {}
-    for i, option in ipairs(verb.options) do options[i] = zsh_option(option) end
+    for i, option in ipairs(verb.options) do options[i] = zsh_option(verb, option) end
     names[#names + 1] = "    " .. quoted(verb.name .. ":" .. brief(verb.summary)) .. "\n"
     rows[#rows + 1] = ("    %s) _arguments \\\n%s      '*:file:_files' ;;\n")
       :format(verb.name, table.concat(options))
@@ -92,9 +98,10 @@ end
 
 local function fish_option(verb, option)
   local dash, name = option.name:match "^(%-+)(.*)"
+  local value = option.is_format and " -x -a " .. quoted(formats[verb.name])
+    or option.value and " -r" or ""
   return ("complete -c celspan -n '__fish_seen_subcommand_from %s' %s %s%s -d %s\n")
-    :format(verb.name, dash == "-" and "-s" or "-l", name, option.value and " -r" or "",
-      quoted(brief(option.help)))
+    :format(verb.name, dash == "-" and "-s" or "-l", name, value, quoted(brief(option.help)))
 end
 
 function writers.fish()

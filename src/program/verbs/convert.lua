@@ -119,6 +119,10 @@ for _, name in ipairs(ONLY_VIDEO) do
     program.usage("--%s is for numbered pictures or a movie", (name:gsub("_", "-")))
   end
 end
+if program.output(request[2]) == "videos" then
+  program.usage("%s: a video is made of numbered pictures or a movie, or by 'celspan render'",
+    request[2])
+end
 if program.has_number(request[2]) then
   program.usage("%s: one picture is written, so its name has no place for a number", request[2])
 end

@@ -54,6 +54,69 @@ local function wrapped(text, indent)
   return table.concat(lines, "\n" .. (" "):rep(indent))
 end
 
+-- ---------------------------------------------------------------- the formats of outputs
+
+local function has(list, wanted)
+  for _, word in ipairs(list) do if word == wanted then return true end end
+  return false
+end
+
+--- Rows of files by their kind, in the order of the table: { kind, "mp4, mkv, ..." }.
+local function kinds_of(is_wanted)
+  local kinds = {}
+  for _, output in ipairs(program.outputs()) do
+    local last, names = kinds[#kinds], table.concat(output.names, ", ")
+    if output.kind ~= "digests" and is_wanted(output) then
+      if last and last[1] == output.kind then
+        last[2] = last[2] .. ", " .. names
+      else
+        kinds[#kinds + 1] = { output.kind, names }
+      end
+    end
+  end
+  return kinds
+end
+
+--- The kinds that a verb makes. Only verbs that take names of formats make such files.
+local function formats_of(verb)
+  local has_format = false
+  for _, option in ipairs(verb.options) do has_format = has_format or option.is_format end
+  return kinds_of(function(output)
+    return has_format and (not output.makers or has(output.makers, verb.name))
+  end)
+end
+
+--- The tables of docs/formats.md: the formats by their kinds, and which of them take the options
+--- that some do not take.
+local function put_formats(out)
+  local rows, known, all = {}, {}, kinds_of(function() return true end)
+  out:write "| kind | formats |\n|---|---|\n"
+  for _, kind in ipairs(all) do
+    out:write(("| %s | %s |\n"):format(kind[1], kind[2]))
+    all[kind[1]] = kind[2]
+  end
+  for _, output in ipairs(program.outputs()) do
+    for _, option in ipairs(output.takes) do
+      local words = {}
+      for i, kind in ipairs(kinds_of(function(other) return has(other.takes, option) end)) do
+        words[i] = all[kind[1]] == kind[2] and kind[1] or ("%s (%s)"):format(kind[1], kind[2])
+      end
+      local takers = table.concat(words, ", ")
+      if not known[takers] then
+        rows[#rows + 1] = { takers }
+        known[takers] = rows[#rows]
+      end
+      local options = known[takers]
+      if not known[option] then options[#options + 1] = "`" .. option .. "`" end
+      known[option] = true
+    end
+  end
+  out:write "\n| options | only for |\n|---|---|\n"
+  for _, row in ipairs(rows) do
+    out:write(("| %s | %s |\n"):format(table.concat(row, ", ", 2), row[1]))
+  end
+end
+
 local function put_verb(out, verb)
   out:write(("celspan %s %s\n\n%s\n"):format(verb.name, usage_of(verb), verb.summary))
   if verb.notes then out:write("\n", wrapped(verb.notes, 0), "\n") end
@@ -63,6 +126,9 @@ local function put_verb(out, verb)
     out:write(("  %-18s%s%s\n"):format(words, #words > 18 and option.value and "  " or " ",
       wrapped(option.help, 21)))
   end
+  local formats = formats_of(verb)
+  if formats[1] then out:write "\nFormats of OUT, by the ending of its name\n" end
+  for _, kind in ipairs(formats) do out:write(("  %-18s %s\n"):format(kind[1], kind[2])) end
   if verb.has_script then
     out:write "\nThe words after -- are the arguments (...) of the script.\n"
   end
@@ -169,6 +235,8 @@ local function put_about(out, words)
   local recipe = exact_recipe(recipes, words)
   if words == "cookbook" then
     put_recipes(out, recipes)
+  elseif words == "formats" then
+    put_formats(out)
   elseif words == "assistants" then
     out:write(program.text "assistants.md")
   elseif recipe then
@@ -212,6 +280,7 @@ local function put_section(out, verb)
     local value = option.value and (" \\fI%s\\fR"):format(roff(option.value)) or ""
     put_term(out, ("\\fB%s\\fR%s"):format(roff(option.name), value), option.help)
   end
+  for _, kind in ipairs(formats_of(verb)) do put_term(out, roff(kind[1]), kind[2]) end
 end
 
 local HEAD = [[
@@ -265,10 +334,21 @@ local function rows_of(rows)
   return { list = list }
 end
 
+--- The rows of outputs, whose lists may be empty.
+local function lists_of(outputs)
+  for _, output in ipairs(outputs) do
+    for _, name in ipairs { "names", "takes", "makers" } do
+      output[name] = output[name] and { list = output[name] }
+    end
+  end
+  return outputs
+end
+
 --- Writes everything that the help knows, as one object.
 local function put_json(out)
   for _, verb in ipairs(verbs) do verb.options = { list = verb.options } end
   out:write(program.json { version = program.version, verbs = verbs,
+    outputs = { list = lists_of(program.outputs()) },
     exit_codes = rows_of(exit_codes), environment = rows_of(environment),
     lua = require "celspan.manual".facts() }, "\n")
 end
@@ -279,7 +359,13 @@ end
 if request.man then
   put_manual(io.stdout)
 elseif request.completion then
-  local text = program.part("completion.lua", verbs, request.completion)
+  local formats = {}
+  for _, verb in ipairs(verbs) do
+    local names = {}
+    for i, kind in ipairs(formats_of(verb)) do names[i] = kind[2]:gsub(",", "") end
+    formats[verb.name] = table.concat(names, " "):gsub("^%- ", "")
+  end
+  local text = program.part("completion.lua", verbs, request.completion, formats)
   if not text then
     program.usage("--completion: '%s' is not bash, zsh or fish", request.completion)
   end

@@ -23,10 +23,17 @@ local CLOSING = 400       -- milliseconds for it when the page's server ends, wh
 local renders = {}
 renders.__index = renders
 
--- The endings of a file, by the format.
-local endings = { mp4 = "mp4", webm = "webm", mov = "mov", gif = "gif", webp = "webp", png = "png",
-                  exr = "exr" }
-local stills = { png = true, exr = true }
+-- Whether a format holds pictures alone; nil: it holds neither pictures nor videos.
+local stills = {}
+for _, output in ipairs(program.outputs()) do
+  for _, name in ipairs(output.names) do
+    if output.kind == "videos" then
+      stills[name] = false
+    elseif output.kind == "pictures" and stills[name] == nil then
+      stills[name] = true
+    end
+  end
+end
 
 --- folder: of the files, with a / at its end; "" for the working folder. tell(): called when pages
 --- need news. number: of the renders that have begun.
@@ -54,8 +61,8 @@ local function fault_of_name(name, format)
     if #part > 255 then return "a part of the name is too long" end
   end
   if name:find "%%" then return "write #### for the number of a frame" end
-  if name:match "%.(%w+)$" ~= endings[format] then
-    return ("the name of the file must end with .%s"):format(endings[format])
+  if name:match "%.(%w+)$" ~= format then
+    return ("the name of the file must end with .%s"):format(format)
   end
 end
 
@@ -98,7 +105,7 @@ end
 --- A whole description of what is wanted; nil and a sentence.
 function renders:read(given)
   local facts, format = self.film.facts, given.format
-  if not endings[format] then return nil, "there is no such format" end
+  if stills[format] == nil then return nil, "there is no such format" end
   local fault = fault_of_name(given.file, format)
   if fault then return nil, fault end
   local path, why = place_of(self.folder, given.file)
