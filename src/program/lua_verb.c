@@ -209,8 +209,13 @@ static int run(lua_State *L) {
   lua_pushvalue(L, 1);
   lua_call(L, 1, 0);
   const cs_verb *verb = session->request->verb;
-  bool runs_rows = !verb->plans_rows && cs_request_has(session->request, "--table");
-  lua_pushfstring(L, "%s.lua", runs_rows ? "table" : verb->name);
+  const cs_output *output = session->request->output;
+  if (!verb->plans_rows && cs_request_has(session->request, "--table"))
+    lua_pushliteral(L, "table.lua");
+  else if (output && output->part)
+    lua_pushstring(L, output->part);
+  else
+    lua_pushfstring(L, "%s.lua", verb->name);
   cs_built_in_load(L, cs_verb_texts, "", lua_tostring(L, -1));
   lua_insert(L, 1);
   lua_settop(L, 3);

@@ -280,7 +280,11 @@ local function put_section(out, verb)
     local value = option.value and (" \\fI%s\\fR"):format(roff(option.value)) or ""
     put_term(out, ("\\fB%s\\fR%s"):format(roff(option.name), value), option.help)
   end
-  for _, kind in ipairs(formats_of(verb)) do put_term(out, roff(kind[1]), kind[2]) end
+  local formats = formats_of(verb)
+  for i, kind in ipairs(formats) do formats[i] = ("%s: %s."):format(kind[1], kind[2]) end
+  if formats[1] then
+    out:write(".PP\nFormats of OUT. ", roff(table.concat(formats, " ")), "\n")
+  end
 end
 
 local HEAD = [[

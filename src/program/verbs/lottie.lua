@@ -1,5 +1,5 @@
---- celspan render SCRIPT -o film.json|film.lottie: a film as a Lottie animation, for players in
---- pages and applications.
+--- The writer of film.json and film.lottie: a film as a Lottie animation, for players in pages and
+--- applications.
 ---
 ---   frames --core.scenery--> structures --tracks--> what moves, and what changes --> layers
 ---      \--what players cannot say--> pictures
