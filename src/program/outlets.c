@@ -17,12 +17,18 @@ static celspan_coding raw_coding(const cs_into *into, const celspan_frame_desc *
   return coding;
 }
 
+static void close_raw(cs_into *into) { cs_slots_close(&into->raw, into->script->context); }
+
 /* Frames are made in slots, if there are several and workers can make them beside each other. */
 static cs_exit open_raw(cs_into *into) {
+  celspan_context *context = into->script->context;
   const celspan_coding coding = raw_coding(into, into->frame);
   if (into->frames->count < 2 || into->keeps_nothing)
     return CS_EXIT_OK;
-  return report(into, cs_raw_frame_slots(into->script->context, into->frame, &coding, &into->raw));
+  celspan_status status = cs_raw_frame_slots(context, into->frame, &coding, &into->raw);
+  if (status != CELSPAN_OK)
+    close_raw(into);
+  return report(into, status);
 }
 
 static celspan_status put_raw(cs_into *into, const cs_shoot_put *one) {
@@ -37,8 +43,6 @@ static size_t raw_slots(const cs_into *into) { return into->raw.count; }
 static celspan_status give_raw(cs_into *into, size_t slot) {
   return cs_raw_frame_give(into->script->context, &into->raw, slot);
 }
-
-static void close_raw(cs_into *into) { cs_slots_close(&into->raw, into->script->context); }
 
 static celspan_status commit_raw(cs_into *into) {
   close_raw(into);

@@ -295,17 +295,24 @@ static const char *subject_of(const comparison *c, char out[40]) {
   return out;
 }
 
+static bool is_of_outputs(const char *option) {
+  const cs_output *output = cs_outputs;
+  while (output->kind && !cs_output_lists(output->takes, option))
+    output++;
+  return output->kind != NULL;
+}
+
 static void compare_option(void *user, const char *option, const char *value) {
   comparison *c = user;
   sentence takers;
   char subject[40];
   (void)value;
-  if (c->outcome != CS_EXIT_OK || cs_output_lists(c->output->takes, option))
+  if (c->outcome != CS_EXIT_OK || cs_output_lists(c->output->takes, option) ||
+      !is_of_outputs(option))
     return;
   list_rows((wanted){.option = option, .is_made = true}, &takers);
-  if (takers.length > 0)
-    c->outcome = cs_report_usage("%s: %s takes no %s: leave it out; it is only for %s", c->path,
-                                 subject_of(c, subject), option, takers.text);
+  c->outcome = cs_report_usage("%s: %s takes no %s: leave it out; it is only for %s", c->path,
+                               subject_of(c, subject), option, takers.text);
 }
 
 static cs_exit refuse_value(const comparison *c, const char *option, const char *allowed) {

@@ -374,14 +374,14 @@ describe("render --strip", function()
     refused(2, "--strip: '5/4' is not", "render film.lua --frames 1 --strip 5/4 -o s.png")
     refused(2, "--strip and --crop",
       "render film.lua --frames 1 --strip 1/2 --crop 0,0,9,9 -o s.png")
-    refused(2, "--strip makes files", "render film.lua --frames 1 --strip 1/2 -o -")
-    refused(2, "--strip: a video", "render film.lua --strip 1/2 -o film.mp4")
+    refused(2, "standard output takes no --strip", "render film.lua --frames 1 --strip 1/2 -o -")
+    refused(2, "leave --strip out, or render", "render film.lua --strip 1/2 -o film.mp4")
   end)
 
   it("refuses formats whose strips cannot be joined", function()
     local code, _, err = celspan "render film.lua --frames 1 --strip 1/2 -o s.exr"
     assert.is_truthy(code == 2 or err:find("celspan-picture.so", 1, true), err)
-    assert.is_truthy(err:find("PNG, Targa or span", 1, true), err)
+    assert.is_truthy(err:find("only for pictures (png, tga, targa, span)", 1, true), err)
   end)
 
   it("resumes, and distinguishes a strip from a crop of the same rows", function()
@@ -423,7 +423,7 @@ describe("render --task", function()
   end)
 
   it("needs files as output", function()
-    refused(2, "--task makes files", "render film.lua --task 1/2 -o -")
-    refused(2, "--task: a video", "render film.lua --task 1/2 -o film.mp4")
+    refused(2, "standard output takes no --task", "render film.lua --task 1/2 -o -")
+    refused(2, "leave --task out, or render shot.##", "render film.lua --task 1/2 -o film.mp4")
   end)
 end)
