@@ -5,4 +5,4 @@ files["tests/spec"] = { std = "+busted" }
 files["tests/property"] = { std = "+busted" }
 files["tests/golden/**/*_spec.lua"] = { std = "+busted" }
 -- The spec of a new project uses the assertions of celspan.spec.
-files["src/program/verbs/project/*_spec.lua"] = { std = "+busted", ignore = { "143/assert" } }
+files["src/desk/program/verbs/project/*_spec.lua"] = { std = "+busted", ignore = { "143/assert" } }

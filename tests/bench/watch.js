@@ -5,7 +5,7 @@
 // own size. The page may be that of an older build.
 const { readFileSync, readdirSync, writeFileSync, appendFileSync } = require("fs");
 // the function of the page that takes runs apart
-const UNPACK = readFileSync("src/program/verbs/watch/runs.js", "utf8")
+const UNPACK = readFileSync("src/desk/program/verbs/watch/runs.js", "utf8")
   .replace("\nexport ", "\n");
 const SHOT = process.env.CELSPAN_SHOT, SERVER = process.env.CELSPAN_SERVER;
 const IS_PLAYED = Boolean(process.env.CELSPAN_PLAYED);

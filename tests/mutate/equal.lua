@@ -2,53 +2,53 @@
 -- line of the source, the change as ./run mutate prints it, the reason, and which one, from 1, if
 -- the line has several changes that are printed alike }.
 return {
-  ["src/engine/area/area.c"] = {
+  ["src/core/engine/area/area.c"] = {
     { "return interval->high - i == 2 && interval->events.low > interval->events.high &&",
       "`>` to `>=`", "a part that begins and ends in one column of no width has no area" },
     { "events += cs_active_chain(active, i)->y1 < y + 1.0;", "`<` to `<=`",
       "counts ends at the foot of the row too: the number of slabs affects only the time" },
   },
-  ["src/engine/area/local_sweep.c"] = {
+  ["src/core/engine/area/local_sweep.c"] = {
     { "while (member->points[at].y <= y && at + 1 < member->point_count)", "`1` to `0`",
       "the members compared end below y, which ends the walk" },
   },
-  ["src/engine/area/window.c"] = {
+  ["src/core/engine/area/window.c"] = {
     { "while (end > first && weight_in(cell, end - 1) == 0)", "`>` to `>=`",
       "a cell without area is painted in no column, or in one less than that" },
   },
-  ["src/engine/compose/composer.c"] = {
+  ["src/core/engine/compose/composer.c"] = {
     { "if (composer->item_count <= ITEM_LIMIT)", "`<=` to `<`",
       "programs are discarded one item sooner, and found again" },
     { "if (composer->stack->tree_count == 0 || composer->stack->layer_count == 0)", "`||` to `&&`",
       "copies the set where no tree changes it" },
   },
-  ["src/engine/compose/over_table.c"] = {
+  ["src/core/engine/compose/over_table.c"] = {
     { "uint64_t changed = known->word ^ word;", "`^` to `|`",
       "quarters that did not change are joined again, with the same result" },
   },
-  ["src/engine/compose/procedures.c"] = {
+  ["src/core/engine/compose/procedures.c"] = {
     { "return a->x < b->x;", "`<` to `<=`", "the two differ, as the line above says" },
   },
-  ["src/engine/compose/set.h"] = {
+  ["src/core/engine/compose/set.h"] = {
     { "static inline size_t cs_set_filled_count(size_t words) { return (words + 7) / 8 * 8; }",
       "`/` to `*`", "makes more room than a set needs" },
   },
-  ["src/engine/defocus/edges.c"] = {
+  ["src/core/engine/defocus/edges.c"] = {
     { "*edges = (cs_defocus_edges){0};", "drop `*edges = (cs_defocus_edges){0};`",
       "is freed together with the object that contains it" },
   },
-  ["src/engine/defocus/sums.c"] = {
+  ["src/core/engine/defocus/sums.c"] = {
     { "for (size_t k = 0; k < count; k++)", "`0` to `1`",
       "the weight of the middle is not read: it is 1 minus those of the pairs" },
   },
-  ["src/engine/kernel/convolve_parts.h"] = {
+  ["src/core/engine/kernel/convolve_parts.h"] = {
     { "static inline size_t cs_convolve_words(int32_t width) { return (size_t)width / 64 + 1; }",
       "`1` to `2`", "makes room for one more word, of which no bit is ever set" },
   },
-  ["src/engine/paint/gradient_table.c"] = {
+  ["src/core/engine/paint/gradient_table.c"] = {
     { "cs_set_hash name = {0};", "`0` to `1`", "every name changes by the same amount" },
   },
-  ["src/engine/paint/lines.c"] = {
+  ["src/core/engine/paint/lines.c"] = {
     { "if (last->column - first->column > 1)", "`-` to `+`",
       "computes colours between two neighbouring columns, where nothing is compared" },
     { "if (last->column - first->column > 1)", "`>` to `>=`",
@@ -56,11 +56,11 @@ return {
     { "if (last->column - first->column > 1)", "`1` to `0`",
       "computes colours between two neighbouring columns, where nothing is compared" },
   },
-  ["src/engine/paint/over_row_wide.c"] = {
+  ["src/core/engine/paint/over_row_wide.c"] = {
     { "const cs_wide_int rgb = CS_WIDE_PIXEL(-1, -1, -1, 0);", "`0` to `1`",
       "leaves a bit of alpha in the fourth lane, which is multiplied by 0 or not read" },
   },
-  ["src/engine/paint/shown.c"] = {
+  ["src/core/engine/paint/shown.c"] = {
     { "if (layer->kind == CS_LAYER_DEFOCUSED && columns > STRIDE &&",
       "`layer->kind == CS_LAYER_DEFOCUSED && columns > STRIDE && (i + 1 < dear || "
         .. "cs_shown_is_pixels(painter->stack, layer))` to `!(layer->kind == CS_LAYER_DEFOCUSED && "
@@ -75,14 +75,14 @@ return {
     { "(i + 1 < dear || cs_shown_is_pixels(painter->stack, layer)))", "`1` to `0`",
       "asks about fewer columns at a time what is hidden, where one cel is defocused" },
   },
-  ["src/frames/render/objects.c"] = {
+  ["src/core/frames/render/objects.c"] = {
     { "size_t depth = 0, most = 0;", "`0` to `1`", "makes room for one more than needed", 1 },
   },
-  ["src/engine/row/centre.c"] = {
+  ["src/core/engine/row/centre.c"] = {
     { "(w->boundary < active->count && active->x[w->boundary] <= w->edges.edges[w->edge].x)) {",
       "`<=` to `<`", "no column lies between two crossings at one place" },
   },
-  ["src/engine/row/centre_wide.c"] = {
+  ["src/core/engine/row/centre_wide.c"] = {
     { "__m512i order = _mm512_setr_epi32(0, 16, 0, 0, 1, 17, 0, 1, 2, 18, 0, 2, 3, 19, 0, 3);",
       "`0` to `1`", "in a lane that the mask clears", 2 },
     { "__m512i order = _mm512_setr_epi32(0, 16, 0, 0, 1, 17, 0, 1, 2, 18, 0, 2, 3, 19, 0, 3);",
@@ -92,7 +92,7 @@ return {
     { "__m512i order = _mm512_setr_epi32(0, 16, 0, 0, 1, 17, 0, 1, 2, 18, 0, 2, 3, 19, 0, 3);",
       "`0` to `1`", "in a lane that the mask clears", 6 },
   },
-  ["src/engine/row/row.c"] = {
+  ["src/core/engine/row/row.c"] = {
     { "if (active->y_next > active->y)", "`>` to `<`",
       "the boundaries are brought to the same height by the next step" },
     { "if (active->y_next > active->y)", "`>` to `>=`",
@@ -100,36 +100,36 @@ return {
     { "if (maker->row != CS_ROW_NONE && maker->row < y && y - maker->row < FAR_ROWS)",
       "`<` to `<=`", "continuing gives the same as starting again: it only takes longer", 2 },
   },
-  ["src/model/stroke/curve.c"] = {
+  ["src/core/model/stroke/curve.c"] = {
     { "for (int k = 1; k <= line->degree; k++) {", "`1` to `2`",
       "is used where a line stops: its second point is the first one" },
   },
-  ["src/model/stroke/follow.c"] = {
+  ["src/core/model/stroke/follow.c"] = {
     { "if (fabs(angle) > 3)", "`>` to `>=`", "an angle is never exactly 3; half a turn is meant" },
   },
-  ["src/readers/layered/krita.c"] = {
+  ["src/kit/readers/layered/krita.c"] = {
     { "place < zip->count && strncmp(zip->members[place].name, start, strlen(start)) == 0;",
       "`zip->members[place].name, start` to `start, zip->members[place].name`",
       "are equal in either order" },
   },
-  ["src/readers/svg/gradients.c"] = {
+  ["src/kit/readers/svg/gradients.c"] = {
     { "if (stop.at < 0 && i + 1 < g->stops.count) {", "`0` to `1`",
       "mixing takes a share below 0 for 0" },
     { "if (stop.at < 0 && i + 1 < g->stops.count) {", "`1` to `0`",
       "the last stop is right of the centre" },
   },
-  ["src/model/stroke/dashes.c"] = {
+  ["src/core/model/stroke/dashes.c"] = {
     { "cs_curve_load_line(ruler->line, piece, 0, 1, &line);", "`1` to `2`",
       "a part that ends at 1 or beyond is not cut there" },
   },
-  ["src/model/stroke/side.c"] = {
+  ["src/core/model/stroke/side.c"] = {
     { "bool goes_on = has_fold(side) && are_same(last_tip(side), tips[0]);",
       "`last_tip(side), tips[0]` to `tips[0], last_tip(side)`",
       "are the same in either order" },
     { "return draw_arc(a, from, to, end, 0);", "`0` to `1`",
       "halves an arc one time less, beyond the precision of the result" },
   },
-  ["src/model/stroke/taper.c"] = {
+  ["src/core/model/stroke/taper.c"] = {
     { "int side = middle < t->taper[0] ? 0 : middle > t->length - t->taper[1] ? 1 : -1;",
       "`<` to `<=`", "a piece is cut where a taper ends: its middle is not there" },
     { "int side = middle < t->taper[0] ? 0 : middle > t->length - t->taper[1] ? 1 : -1;",
@@ -141,21 +141,21 @@ return {
     { "int side = middle < t->taper[0] ? 0 : middle > t->length - t->taper[1] ? 1 : -1;",
       "`1` to `2`", "only its sign is used", 3 },
   },
-  ["src/engine/sweep/active.c"] = {
+  ["src/core/engine/sweep/active.c"] = {
     { "if (tile_row > active->tile_row + 1)", "`+` to `-`",
       "starts again at every height, where continuing gives the same: it only takes longer" },
   },
-  ["src/engine/sweep/cull_columns.c"] = {
+  ["src/core/engine/sweep/cull_columns.c"] = {
     { "double stride = piece->sag > 0 ? sqrt(fmax(grid->slack / piece->sag - near, 1)) : 1;",
       "`1` to `2`", "a stride is cut to a whole number, which is 1 up to the root of 4", 1 },
     { "double stride = piece->sag > 0 ? sqrt(fmax(grid->slack / piece->sag - near, 1)) : 1;",
       "`1` to `2`", "chords of a piece without sag, which is straight, may have any length", 2 },
   },
-  ["src/lua/bind/caller.c"] = {
+  ["src/kit/lua/bind/caller.c"] = {
     { "return info->currentline > 0 && info->source[0] == '@' && !is_own(info);", "`>` to `>=`",
       "lines count from 1, and a function without lines has line -1" },
   },
-  ["src/tools/track/plane.c"] = {
+  ["src/kit/tools/track/plane.c"] = {
     { "return a->y != b->y ? a->y < b->y : a->x < b->x;", "`<` to `<=`",
       "the two differ, as the question before it says", 1 },
     { "return a->y != b->y ? a->y < b->y : a->x < b->x;", "`<` to `<=`",

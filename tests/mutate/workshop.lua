@@ -149,9 +149,9 @@ function workshop.source(path) return assert(read(path)) end
 --- Gives a source of the copy this text.
 function workshop.set(path, text) write(COPY .. "/" .. path, text) end
 
---- The name of a source's folder, without that of its wing: area for src/engine/area/area.c.
+--- The name of a source's folder, without that of its wing: area for src/core/engine/area/area.c.
 local function folder_of(path)
-  return path:match "^src/program" and "program" or path:match "^src/%w+/(%w+)/"
+  return path:match "^src/desk/program" and "program" or path:match "^src/%w+/(%w+)/"
     or path:match "^src/%w+/(%w+)$" or path:match "^src/(%w+)"
 end
 

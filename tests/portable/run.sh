@@ -58,7 +58,7 @@ options() {
 build() {
   local folder=$out/$1/build log=$out/$1/log targets=("${programs[@]}")
   [[ $1 =~ musl|wasm|memory ]] || targets+=(examples/example_{painting,letters}
-    src/plugins/raster/celspan-raster.so src/plugins/type/celspan-art.so)
+    src/kit/plugins/raster/celspan-raster.so src/kit/plugins/type/celspan-art.so)
   [ "$1" != wasm ] || targets=("${targets[@]/%/.js}")
   mkdir -p "$out/$1"
   {

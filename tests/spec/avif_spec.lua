@@ -144,7 +144,7 @@ describe("AVIF", function()
   end)
 
   it("has the same bytes at any time, on any number of threads, from both modules", function()
-    local first, raster = nil, workbench.build .. "/src/plugins/raster/celspan-raster.so"
+    local first, raster = nil, workbench.build .. "/src/kit/plugins/raster/celspan-raster.so"
     local ways = { "", "taskset -c 0 " }
     if present.program(raster) then ways[3] = "CELSPAN_PICTURE_MODULE='" .. raster .. "' " end
     for _, way in ipairs(ways) do

@@ -209,7 +209,7 @@ describe("the commands of", function()
             if not (present.pictures() and present.program "oiiotool") then
               return pending "there is no oiiotool, or celspan was built without OpenImageIO"
             end
-            local plugins = workbench.build .. "/src/plugins/oiio/plugin"
+            local plugins = workbench.build .. "/src/kit/plugins/oiio/plugin"
             local code, printed, message = run(("OIIO_LIBRARY_PATH='%s' %s"):format(plugins, line))
             assert.are.equal(0, code, printed .. message)
           end)
@@ -468,8 +468,8 @@ describe("the cookbook", function()
   end)
 
   it("is found by its words", function()
-    local recipes = loadfile "src/program/verbs/recipes.lua"(text)
-    local find = loadfile "src/program/verbs/search.lua"(function() end, {})
+    local recipes = loadfile "src/desk/program/verbs/recipes.lua"(text)
+    local find = loadfile "src/desk/program/verbs/search.lua"(function() end, {})
     for title, words in text:gmatch "\n### ([^\n]+)\n\n%*Words: (.-)%*" do
       for word in words:gsub("\n", " "):gmatch "%s*([^,]+)" do
         local titles = {}

@@ -4,10 +4,10 @@ local manual = own "celspan.manual"
 local system = require "tests.support.system"
 local workbench = require "tests.support.workbench"
 
-local VERBS = "src/program/verbs/"
+local VERBS = "src/desk/program/verbs/"
 
 local recipes = loadfile(VERBS .. "recipes.lua")(system.read "docs/cookbook.md")
-local headings = system.read(workbench.build .. "/src/program/headings.txt")
+local headings = system.read(workbench.build .. "/src/desk/program/headings.txt")
 local synonyms = dofile(VERBS .. "synonyms.lua")
 local topics = loadfile(VERBS .. "topics.lua")(recipes, headings, manual.names(), {})
 

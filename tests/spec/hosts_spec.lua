@@ -56,7 +56,7 @@ describe("the interface", function()
     exports(header.plain "", "nm -D --defined-only '%s'", LIBRARY)
     assert.is_nil(good("nm -D --defined-only '%s'", LIBRARY):find " T cs_")
     exports(header.plain("", { header.LUA }),
-      "nm -g --defined-only '%s/src/lua/module/libcelspan_lua.a'", BUILD)
+      "nm -g --defined-only '%s/src/kit/lua/module/libcelspan_lua.a'", BUILD)
   end)
 
   it("settles for every structure how it may grow", function()

@@ -64,7 +64,7 @@ for _, kind in ipairs { "PICTURE", "ART", colour } do
 
     it("must be installed, or another named, when it is another file", function()
       local other = kind == "ART" and "/tests/hostile_module.so"
-        or "/src/plugins/type/celspan-art.so"
+        or "/src/kit/plugins/type/celspan-art.so"
       local path = workbench.build .. other
       local file = io.open(path)
       if not file then return pending(path .. " is not built") end

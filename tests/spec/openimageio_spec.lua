@@ -16,7 +16,7 @@ end
 
 local function oiiotool(arguments)
   return bench:inside(("OIIO_LIBRARY_PATH='%s' oiiotool %s")
-    :format(workbench.build .. "/src/plugins/oiio/plugin", arguments))
+    :format(workbench.build .. "/src/kit/plugins/oiio/plugin", arguments))
 end
 
 local function opened(arguments)

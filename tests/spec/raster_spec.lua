@@ -6,7 +6,7 @@ local profile = require "tests.support.profile"
 local stored = require "tests.support.stored"
 local workbench = require "tests.support.workbench"
 
-local RASTER = workbench.build .. "/src/plugins/raster/celspan-raster.so"
+local RASTER = workbench.build .. "/src/kit/plugins/raster/celspan-raster.so"
 local WITH = "CELSPAN_PICTURE_MODULE='" .. RASTER .. "' "
 
 if not present.program(RASTER) then return pending "the raster module was not built" end

@@ -8,15 +8,15 @@ describe("the structure of src", function()
 
   setup(function()
     bench = workbench.new()
-    assert(os.execute(("mkdir -p '%s/src/base'"):format(bench.folder)))
+    assert(os.execute(("mkdir -p '%s/src/core/base'"):format(bench.folder)))
     bench:write("src/meson.build", "foreach layer : ['base']\n")
   end)
   teardown(function() bench:remove() end)
 
-  --- The tree of these files of src/base, by their names.
+  --- The tree of these files of src/core/base, by their names.
   local function tree_of(files)
-    assert(os.execute(("rm -f '%s'/src/base/*"):format(bench.folder)))
-    for name, text in pairs(files) do bench:write("src/base/" .. name, text) end
+    assert(os.execute(("rm -f '%s'/src/core/base/*"):format(bench.folder)))
+    for name, text in pairs(files) do bench:write("src/core/base/" .. name, text) end
     return trees.read(bench.folder)
   end
 

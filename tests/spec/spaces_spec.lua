@@ -446,7 +446,7 @@ return celspan.rostrum { size = { 256, 48 }, celspan.cel { celspan.rect { 0, 0, 
   it_reads("is named by a PNG of celspan alone, with both modules", function()
     rendered("ramp.lua", "--background '#000' --ocio config.ocio --colour wide -o wide.png")
     rendered("ramp.lua", "--background '#000' -o plain.png")
-    local raster = workbench.build .. "/src/plugins/raster/celspan-raster.so"
+    local raster = workbench.build .. "/src/kit/plugins/raster/celspan-raster.so"
     local modules = { "" }
     if present.program(raster) then modules[2] = "CELSPAN_PICTURE_MODULE='" .. raster .. "' " end
     for _, module in ipairs(modules) do

@@ -50,7 +50,7 @@ console.log(JSON.stringify({ list: [[15, 1], [21, 1], [13, 1], [18, 1], [40, 1],
 --- What a module of the page prints, as JSON, with more text at its end.
 local function run(module, text)
   local name = os.tmpname()
-  system.write(name .. ".mjs", system.read("src/program/verbs/watch/" .. module) .. text)
+  system.write(name .. ".mjs", system.read("src/desk/program/verbs/watch/" .. module) .. text)
   local pipe = assert(io.popen("node " .. name .. ".mjs 2>&1"))
   local said = pipe:read "a"
   pipe:close()

@@ -44,7 +44,7 @@ local program = {
 local pool, results
 
 local function renderers_of(request)
-  local load_it = assert(loadfile "src/program/verbs/watch/renderers.lua")
+  local load_it = assert(loadfile "src/desk/program/verbs/watch/renderers.lua")
   pool = load_it(program, request).new("shot.lua", function() end)
 end
 

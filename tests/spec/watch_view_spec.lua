@@ -70,7 +70,7 @@ describe("a frame in another way", function()
   end)
 
   it("travels as runs, which are the same pixels in fewer bytes", function()
-    local unpack = system.read "src/program/verbs/watch/runs.js":gsub("\nexport ", "\n")
+    local unpack = system.read "src/desk/program/verbs/watch/runs.js":gsub("\nexport ", "\n")
     local said = watching.speak(watching.watch(), unpack .. [=[
       const bytes = async path => Buffer.from((await web.get(path)).body, "latin1");
       const said = { same: [], shares: [] };

@@ -51,7 +51,7 @@ describe("a film in WebP", function()
   end
 
   it("has the same bytes on any number of workers, and from both modules", function()
-    local raster = workbench.build .. "/src/plugins/raster/celspan-raster.so"
+    local raster = workbench.build .. "/src/kit/plugins/raster/celspan-raster.so"
     local ways, first = { "", "", "" }, nil
     if present.program(raster) then ways[4] = "CELSPAN_PICTURE_MODULE='" .. raster .. "' " end
     for i, way in ipairs(ways) do

@@ -73,7 +73,7 @@ local function append(list, more) table.move(more, 1, #more, #list + 1, list) en
 
 --- Whether a change of a file may change pixels: changes of pages and of verbs in Lua do not.
 local function may_change_pixels(path)
-  return not path:find "%.md$" and not path:find "^src/program/verbs/"
+  return not path:find "%.md$" and not path:find "^src/desk/program/verbs/"
 end
 
 local function near_tests(paths)

@@ -15,8 +15,8 @@
 -- For files whose name contains a PLACE, the lines are shown that did not run (-) or ran with
 -- branches that were not taken (2/4: two of four):
 --
---      src/model/scene/value.c:27: -     return false;
---      src/model/scene/value.c:31: 2/4   if (a && b)
+--      src/core/model/scene/value.c:27: -     return false;
+--      src/core/model/scene/value.c:31: 2/4   if (a && b)
 --
 -- A file that is compiled several times, for several kinds of processors, counts once: a line
 -- counts as run if it ran in any of them. Threads count without locks, so a count may be below 0;
@@ -25,8 +25,8 @@ local json = require "celspan.json"
 local system = require "tests.support.system"
 
 local build = assert(arg[1], "coverage.lua BUILD")
-local LEFT_OUT = { ["src/base/embed.c"] = true, ["src/lua/bind/compile.c"] = true,
-  ["src/model/colour/make_transfer_tables.c"] = true }
+local LEFT_OUT = { ["src/core/base/embed.c"] = true, ["src/kit/lua/bind/compile.c"] = true,
+  ["src/core/model/colour/make_transfer_tables.c"] = true }
 
 -- by name: { lines = { [number] = count }, branches = { [number] = { count, ... } } }
 local files = {}

@@ -10,7 +10,7 @@
 --- and indentation; an import or an export in a form that the server cannot join; a module that
 --- comes before one that it needs, or is never reached; two modules with one name in the script
 --- that they are joined to, or one that is the browser's.
-local FOLDER = "src/program/verbs/watch/"
+local FOLDER = "src/desk/program/verbs/watch/"
 local joining = dofile(FOLDER .. "joining.lua")
 
 local browser = {}

@@ -48,7 +48,7 @@ function present.spaces() return not contains "built without OpenColorIO" end
 --- Whether AVIF can be written: the picture module that is used was built with libavif.
 function present.avif()
   for _, name in ipairs { "oiio/celspan-picture.so", "raster/celspan-raster.so" } do
-    local path = (os.getenv "CELSPAN_BUILD" or "build") .. "/src/plugins/" .. name
+    local path = (os.getenv "CELSPAN_BUILD" or "build") .. "/src/kit/plugins/" .. name
     if present.program(path) then
       return not ends_well(("grep -qsaE 'built without libavif' '%s'"):format(path))
     end

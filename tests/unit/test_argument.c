@@ -2,7 +2,7 @@
  * unchanged when a value is refused. */
 #include <stdlib.h>
 
-#include "frames/tiles/pyramid.h"
+#include "writers/tiles/pyramid.h"
 #include "program/argument.h"
 #include "tests/support/check.h"
 

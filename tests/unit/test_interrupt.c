@@ -1,5 +1,5 @@
-/* frames/process/interrupt.c: a wait ends by a signal, whenever that came. */
-#include "frames/process/interrupt.h"
+/* process/interrupt.c: a wait ends by a signal, whenever that came. */
+#include "process/interrupt.h"
 
 #include <signal.h>
 #include <sys/wait.h>

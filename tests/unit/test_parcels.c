@@ -4,10 +4,10 @@
 #include <math.h>
 
 #include "celspan/plane.h"
-#include "frames/parcels/boxes.h"
-#include "frames/parcels/making.h"
-#include "frames/parcels/plot.h"
-#include "frames/parcels/under.h"
+#include "writers/parcels/boxes.h"
+#include "writers/parcels/making.h"
+#include "writers/parcels/plot.h"
+#include "writers/parcels/under.h"
 #include "tests/support/frame_rows.h"
 #include "tests/support/memory.h"
 

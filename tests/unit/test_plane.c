@@ -5,7 +5,7 @@
 #include <math.h>
 
 #include "celspan/plane.h"
-#include "frames/plane/plane.h"
+#include "writers/plane/plane.h"
 #include "tests/support/frame_rows.h"
 #include "tests/support/memory.h"
 #include "tests/support/random.h"

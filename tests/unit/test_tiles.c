@@ -10,8 +10,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "frames/tiles/log.h"
-#include "frames/tiles/render.h"
+#include "writers/tiles/log.h"
+#include "writers/tiles/render.h"
 #include "output/sinks/pixels.h"
 #include "output/sinks/sink.h"
 #include "tests/support/random.h"

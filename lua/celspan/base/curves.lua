@@ -1,4 +1,4 @@
---- Lines measured by their length (src/lua/nouns/ruler.c): where a place along a path is, and which
+--- Lines measured by their length (src/kit/lua/nouns/ruler.c): where a place along a path is, and which
 --- way it goes there.
 local core = require "celspan.core"
 local fields = require "celspan.fields"

@@ -1,4 +1,4 @@
---- The sounds of a film as one flat list, for the mix (src/plugins/sound/mix.h).
+--- The sounds of a film as one flat list, for the mix (src/kit/plugins/sound/mix.h).
 --
 --   film A: voice.wav at 1 s                     voice.wav: start 5 - 2 + 1, heard from 5 to 8
 --   film B: { A, at = 5, from = 2, to = 5 }  --> (the passage of A in B), and in A's own passages

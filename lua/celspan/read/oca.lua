@@ -70,7 +70,7 @@ local function file_of(state, what, name)
 end
 
 -- Krita's words for modes that celspan lacks, with "_" as "-"; the words in Krita's files are in
--- src/readers/layered/document.c.
+-- src/kit/readers/layered/document.c.
 local blends = { passthrough = "pass-through", add = "linear-dodge", plus = "add",
   dodge = "color-dodge", burn = "color-burn", diff = "difference", luminize = "luminosity",
   soft_light = "soft-light-photoshop", soft_light_svg = "soft-light" }

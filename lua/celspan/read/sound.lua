@@ -13,7 +13,7 @@ local spectrum = require "celspan.spectrum"
 
 local sound = {}
 
--- The sums of src/plugins/sound/loudness.h, one for each step.
+-- The sums of src/kit/plugins/sound/loudness.h, one for each step.
 local STEP = 0.01 -- seconds
 local MOMENTS = 480 -- of a step
 local WINDOW = 0.4 -- seconds

@@ -1,6 +1,6 @@
 --- Reads the structure of C and C++ sources: the includes and definitions of a file.
 ---
----   local file = c_source.read "src/engine/sweep/active.c"
+---   local file = c_source.read "src/core/engine/sweep/active.c"
 ---
 --- file.lines      how many there are
 --- file.includes   names between quotes

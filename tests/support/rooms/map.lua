@@ -8,7 +8,7 @@ local map = {}
 --- The folders of Lua, from the bottom up.
 local function lua_folders(root)
   local list = modules.folders(root)
-  list[#list + 1] = "src/program/verbs"
+  list[#list + 1] = "src/desk/program/verbs"
   return list
 end
 

@@ -1,12 +1,12 @@
 --- The modules of celspan in Lua: their folders in lua/celspan, in the order in which they may
---- require each other, as src/lua/module/meson.build lists them.
+--- require each other, as src/kit/lua/module/meson.build lists them.
 local system = require "tests.support.system"
 
 local modules = {}
 
 --- The folders in order, and for each module its folder's rank and its path from the root.
 local function listed(root)
-  local text = assert(system.read(root .. "/src/lua/module/meson.build"))
+  local text = assert(system.read(root .. "/src/kit/lua/module/meson.build"))
   local folders, ranks, paths = {}, {}, {}
   for line in assert(text:match "lua_modules = (%b[])"):sub(2, -2):gmatch "%b[]" do
     local folder = line:match "'(%w+)'"
@@ -44,7 +44,7 @@ function modules.check(root, fault)
   for _, path in ipairs(system.lines(("cd '%s' && find lua -name '*.lua'"):format(root))) do
     count = count + 1
     if not is_listed[path] then
-      fault("%s is not listed in src/lua/module/meson.build", path)
+      fault("%s is not listed in src/kit/lua/module/meson.build", path)
     end
   end
   return count
