@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/functions.h"
+#include "common/functions.h"
 #include "base/hash.h"
 #include "base/number.h"
 #include "tests/support/check.h"

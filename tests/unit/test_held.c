@@ -9,7 +9,7 @@
 #include "base/thread_pool.h"
 #include "frames/render/ways.h"
 #include "output/sinks/pixels.h"
-#include "output/sinks/planes_sink.h"
+#include "video/planes_sink.h"
 #include "output/sinks/sink.h"
 #include "tests/support/memory.h"
 #include "tests/support/picture.h"

@@ -4,7 +4,7 @@
 #include "frames/film/shoot.h"
 
 #include "base/context.h"
-#include "frames/film/slots.h"
+#include "video/slots.h"
 #include "tests/support/scene.h"
 
 enum { FRAMES = 12, SCENES = 5, NOWHERE = -1 };

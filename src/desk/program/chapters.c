@@ -9,7 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/utf8.h"
+#include "common/utf8.h"
 #include "program/video_target.h"
 
 enum {

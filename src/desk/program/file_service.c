@@ -6,7 +6,7 @@
 #include <unistd.h>
 
 #include "base/open.h"
-#include "base/resolve.h"
+#include "common/resolve.h"
 #include "writers/plane/plane.h"
 #include "process/journal.h"
 #include "writers/still/span_reader.h"
@@ -127,7 +127,7 @@ static int entries(lua_State *L) {
   return errno ? fail_system(L, "cut") : 1;
 }
 
-/* resolve(path) -> the path to which it leads (base/resolve.h) | nil, message */
+/* resolve(path) -> the path to which it leads (common/resolve.h) | nil, message */
 static int resolve(lua_State *L) {
   char *resolved = cs_resolve_path(luaL_checkstring(L, 1));
   if (!resolved)

@@ -20,7 +20,7 @@
 #include "lua/nouns/lua_film.h"
 #include "model/colour/transfer.h"
 #include "model/pictures/store.h"
-#include "output/sinks/difference.h"
+#include "common/difference.h"
 #include "output/sinks/file.h"
 #include "output/sinks/pixels.h"
 #include "output/sinks/sink.h"

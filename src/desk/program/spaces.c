@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/module.h"
-#include "base/utf8.h"
+#include "common/utf8.h"
 #include "model/colour/transfer_names.h"
 #include "model/pictures/configuration.h"
 

@@ -3,7 +3,7 @@
 #include <stdarg.h>
 #include <stdio.h>
 
-#include "base/utf8.h"
+#include "common/utf8.h"
 #include "process/child.h"
 #include "video/format.h"
 

@@ -7,7 +7,7 @@
 #include "base/open.h"
 #include "output/sinks/coder.h"
 #include "output/sinks/pixels.h"
-#include "output/sinks/planes_sink.h"
+#include "video/planes_sink.h"
 #include "output/sinks/sink.h"
 
 /* ---------------------------------------------------------------- opening */

@@ -17,7 +17,7 @@
 #pragma once
 
 #include "frames/film/shoot.h"
-#include "frames/film/slots.h"
+#include "video/slots.h"
 #include "video/encoder.h"
 #include "video/format.h"
 #include "output/sinks/file.h"

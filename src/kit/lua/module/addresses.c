@@ -1,7 +1,7 @@
 /* Addresses that contain a file, for readers that are written in Lua. */
 #include <lauxlib.h>
 
-#include "base/address.h"
+#include "common/address.h"
 #include "lua/module/core.h"
 
 int cs_addresses_is_data(lua_State *L) {

@@ -162,7 +162,7 @@ int cs_stack_light(lua_State *L);
  * of `width` pixels -> count, largest, x, y, channel, picture
  *
  * count: the pixels in which a code differs by more than the tolerance, 0..1; largest: the largest
- * difference, at x, y; picture: the codes of output/sinks/difference.h. For equal strings only 0 is
+ * difference, at x, y; picture: the codes of common/difference.h. For equal strings only 0 is
  * returned. The colour under an alpha of 0 does not count. */
 int cs_difference_of(lua_State *L);
 

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "lua/module/core.h"
-#include "output/sinks/difference.h"
+#include "common/difference.h"
 
 typedef struct tally {
   lua_Integer count;

@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "base/address.h"
+#include "common/address.h"
 #include "lua/bind/fields.h"
 #include "lua/bind/files.h"
 #include "lua/bind/list.h"

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/elementary.h"
-#include "base/functions.h"
+#include "common/functions.h"
 #include "base/splitmix.h"
 #include "lua/sandbox/library.h"
 

@@ -1,6 +1,6 @@
 /* The sandbox of a script: its rights and limits.
  *
- *   base/roots.h              the folders that it may read     library.h  its globals
+ *   common/roots.h              the folders that it may read     library.h  its globals
  *   plugins/isolate/strict.h  the rights of the process        guard.h    memory, time, steps
  *
  * INVARIANT: it lives until the last block of its state is freed, and so longer than all that the
@@ -8,7 +8,7 @@
  */
 #pragma once
 
-#include "base/roots.h"
+#include "common/roots.h"
 #include "lua/bind/host.h"
 #include "lua/sandbox/guard.h"
 

@@ -5,7 +5,7 @@
  */
 #pragma once
 
-#include "base/roots.h"
+#include "common/roots.h"
 #include "plugins/isolate/message.h"
 
 /* Starts the zygote now, because a confined program could not start it later. Workers will only be

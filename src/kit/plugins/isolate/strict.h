@@ -13,7 +13,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "base/roots.h"
+#include "common/roots.h"
 
 /* The rights that the process keeps. It may always read the libraries of the system. */
 typedef struct cs_strict_rights {

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/markup.h"
+#include "common/markup.h"
 
 /* ---------------------------------------------------------------- formats */
 

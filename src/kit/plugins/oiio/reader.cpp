@@ -26,7 +26,7 @@
 #endif
 #include "model/colour/transfer_names.h"
 #include "model/pictures/configuration.h"
-#include "model/pictures/profile_name.h"
+#include "plugins/shared/profile_name.h"
 #include "plugins/oiio/shared.h"
 #include "plugins/oiio/sniff.h"
 #include "plugins/oiio/source.h"

@@ -6,7 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "model/pictures/opened.h"
+#include "plugins/shared/opened.h"
 #include "plugins/raster/raster.h"
 #include "plugins/raster/write.h"
 

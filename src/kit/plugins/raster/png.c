@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "model/colour/transfer_names.h"
-#include "model/pictures/profile_name.h"
+#include "plugins/shared/profile_name.h"
 #include "plugins/raster/raster.h"
 
 enum { GAMMA_LINEAR = 100000 }; /* in units of 1/100000 */

@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/address.h"
+#include "common/address.h"
 #include "base/open.h"
 #include "plugins/sound/sound.h"
 

@@ -5,7 +5,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "base/address.h"
+#include "common/address.h"
 #include "base/open.h"
 #include "plugins/isolate/media_kind.h"
 

@@ -11,7 +11,7 @@
 #include "video/sound_stream.h"
 
 typedef struct cs_sound_request {
-  const char *path;       /* of a file, or an address that contains it (base/address.h) */
+  const char *path;       /* of a file, or an address that contains it (common/address.h) */
   const char *tried;      /* other paths that do not exist either, for messages; NULL: none */
   int32_t rate, channels; /* the wanted ones; 0: those of the file */
   double speed;           /* 2: twice as fast, without changing the pitch; 0 and 1: unchanged */

@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "base/elementary.h"
-#include "base/functions.h"
+#include "common/functions.h"
 #include "plugins/sound/sound.h"
 
 enum { WINDOW = 2048 /* moments */, HALF = WINDOW / 2, FULL = 240 /* quarters of a decibel */ };

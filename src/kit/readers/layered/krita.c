@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "model/colour/blend_names.h"
+#include "common/blend_names.h"
 #include "readers/layered/krita_tiles.h"
 
 static bool is(const char *text, const char *word) { return text && strcmp(text, word) == 0; }

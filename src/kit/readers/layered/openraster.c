@@ -2,7 +2,7 @@
 #include <string.h>
 
 #include "celspan/layers.h"
-#include "model/colour/blend_names.h"
+#include "common/blend_names.h"
 #include "readers/layered/bytes.h"
 #include "readers/layered/document.h"
 #include "readers/layered/png.h"

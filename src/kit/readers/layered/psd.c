@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "model/colour/blend_names.h"
+#include "common/blend_names.h"
 #include "readers/layered/profile.h"
 
 typedef struct document {

@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "base/address.h"
+#include "common/address.h"
 #include "celspan/svg.h"
 #include "readers/svg/shapes.h"
 

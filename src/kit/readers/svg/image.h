@@ -30,7 +30,7 @@ CELSPAN_CHECKED celspan_status cs_svg_image_in_box(cs_svg_reading *reading, cons
 
 /* ---------------------------------------------------------------- where the bytes are */
 
-/* Where the bytes of an image are: in its href itself (base/address.h), or in a file below the
+/* Where the bytes of an image are: in its href itself (common/address.h), or in a file below the
  * drawing's own folder.
  *
  *   "art/hero.svg" names "hand.png"      ->  "art/hand.png"

@@ -6,7 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/address.h"
+#include "common/address.h"
 #include "base/number.h"
 #include "model/pictures/store.h"
 #include "readers/layered/png.h"

@@ -7,10 +7,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "base/address.h"
+#include "common/address.h"
 #include "base/error_text.h"
 #include "base/open.h"
-#include "base/resolve.h"
+#include "common/resolve.h"
 
 /* ---------------------------------------------------------------- kinds */
 

@@ -9,7 +9,7 @@
 
 #include "base/description.h"
 #include "base/elementary.h"
-#include "base/solve.h"
+#include "common/solve.h"
 #include "celspan/relight.h"
 #include "model/scene/check.h"
 #include "tools/relight/light_field.h"

@@ -3,7 +3,7 @@
 #include <math.h>
 
 #include "base/number.h"
-#include "base/solve.h"
+#include "common/solve.h"
 
 /* How often the parameters are moved towards the curve, and the most points that are examined for
  * this. */

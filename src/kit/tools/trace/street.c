@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#include "base/solve.h"
+#include "common/solve.h"
 
 /* A narrower street does not count; neither does a smaller weight. */
 #define NARROWEST 1e-3

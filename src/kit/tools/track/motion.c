@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 #include "base/number.h"
-#include "base/solve.h"
+#include "common/solve.h"
 #include "base/splitmix.h"
 
 enum { MOST_UNKNOWNS = 8, SAMPLES = 300, REFINEMENTS = 12 };

@@ -10,10 +10,10 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/markup.h"
+#include "common/markup.h"
 #include "writers/apart/apart.h"
 #include "frames/render/frame.h"
-#include "model/colour/blend_names.h"
+#include "common/blend_names.h"
 #include "writers/archive/archive.h"
 #include "output/sinks/pixels.h"
 #include "output/sinks/sink.h"

@@ -5,7 +5,7 @@
 
 #include "writers/apart/apart.h"
 #include "model/colour/blend.h"
-#include "model/colour/blend_names.h"
+#include "common/blend_names.h"
 #include "model/scene/texture.h"
 #include "model/scene/walk.h"
 #include "output/sinks/pixels.h"

@@ -1,5 +1,5 @@
 /* Drawings as the text of SVG. */
-#include "base/markup.h"
+#include "common/markup.h"
 #include "writers/parcels/plot_text.h"
 
 enum { CODE_DIGITS = 4, STOP_DIGITS = 6, SPARE_DIGITS = 3, MATRIX_DIGITS = 9 };

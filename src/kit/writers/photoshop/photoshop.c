@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#include "model/colour/blend_names.h"
+#include "common/blend_names.h"
 #include "writers/photoshop/bytes.h"
 
 /* The most bytes of a record, and of everything before the records. */

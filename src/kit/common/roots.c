@@ -1,9 +1,9 @@
-#include "base/roots.h"
+#include "common/roots.h"
 
 #include <errno.h>
 #include <stdlib.h>
 
-#include "base/resolve.h"
+#include "common/resolve.h"
 
 bool cs_roots_add(cs_roots *roots, const char *folder) {
   char *resolved = realpath(folder[0] ? folder : ".", NULL);

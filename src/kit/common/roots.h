@@ -2,7 +2,7 @@
  *
  *   roots of a script: its folder, --allow DIR ..., the folders of CELSPAN_PATH
  *
- * INVARIANT: a path is below a root if its target (base/resolve.h) is. So the answer does not say
+ * INVARIANT: a path is below a root if its target (common/resolve.h) is. So the answer does not say
  * whether a file outside the roots exists.
  */
 #pragma once

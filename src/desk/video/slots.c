@@ -1,4 +1,4 @@
-#include "frames/film/slots.h"
+#include "video/slots.h"
 
 #include "frames/render/frame.h"
 

@@ -1,4 +1,4 @@
-#include "output/sinks/difference.h"
+#include "common/difference.h"
 
 #include <string.h>
 

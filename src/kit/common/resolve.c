@@ -1,4 +1,4 @@
-#include "base/resolve.h"
+#include "common/resolve.h"
 
 #include <errno.h>
 #include <limits.h>

@@ -1,4 +1,4 @@
-#include "model/colour/blend_names.h"
+#include "common/blend_names.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -1,4 +1,4 @@
-#include "base/solve.h"
+#include "common/solve.h"
 
 #include <math.h>
 

@@ -1,4 +1,4 @@
-#include "output/sinks/planes_sink.h"
+#include "video/planes_sink.h"
 
 #include "output/sinks/pixels.h"
 #include "output/sinks/shares.h"

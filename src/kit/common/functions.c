@@ -1,4 +1,4 @@
-#include "base/functions.h"
+#include "common/functions.h"
 
 #include <math.h>
 #include <stdbool.h>
