@@ -50,25 +50,30 @@ local ranks = tree.folder_ranks(root)
 local paths = source_files()
 local known, edges = {}, {}
 for _, path in ipairs(paths) do
-  known[path:gsub("^include/", "")] = true
+  known[tree.name(path)] = path
 end
 
 -- A generated header is named in its folder's meson.build.
 local function is_generated(name)
   local folder, file = name:match("^([%w_/]+)/([%w_]+%.h)$")
-  local build = folder and io.open(("%s/src/%s/meson.build"):format(root, folder))
-  if not build then
-    return false
+  for _, house in ipairs { "core", "kit", "desk" } do
+    local path = ("%s/src/%s/%s"):format(root, house, folder)
+    local build = folder and io.open(path .. "/meson.build")
+    local text = build and build:read "a" or ""
+    if build then
+      build:close()
+    end
+    if text:find("'" .. file .. "'", 1, true) then
+      return path:sub(#root + 6) .. "/" .. file
+    end
   end
-  local text = build:read("a")
-  build:close()
-  return text:find("'" .. file .. "'", 1, true) ~= nil
 end
 
 local function check_include(path, include)
   local place = ("src/%s:%d"):format(path, include.line)
-  local from, to = tree.listed(ranks, path), tree.listed(ranks, include.name)
-  if not known[include.name] and not is_generated(include.name) then
+  local target = known[include.name] or is_generated(include.name)
+  local from, to = tree.listed(ranks, path), target and tree.listed(ranks, target)
+  if not target then
     fault('%s: "%s" is no file of src/ (write it as "folder/file.h")', place, include.name)
   elseif include.name:find "^celspan/" then
     return
@@ -83,7 +88,7 @@ end
 
 local checks = 0
 for _, path in ipairs(paths) do
-  local name = path:gsub("^include/", "")
+  local name = tree.name(path)
   edges[name] = {}
   for _, include in ipairs(includes_of(path)) do
     checks = checks + 1
@@ -111,7 +116,7 @@ local function visit(name, trail)
   trail[#trail] = nil
 end
 for _, path in ipairs(paths) do
-  visit(path:gsub("^include/", ""), {})
+  visit(tree.name(path), {})
 end
 
 for _, sentence in ipairs(faults) do

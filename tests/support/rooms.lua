@@ -25,9 +25,9 @@ local trees = require "tests.support.rooms.tree"
 local MOST_LINES, MOST_PARAMETERS = 40, 7
 -- Functions that a library calls with parameters of its choosing.
 local CALLED_BY_LIBRARIES = {
-  ["plugins/web/web.c"] = { handle = true },
-  ["plugins/type/xml.c"] = { on_entity = true },
-  ["plugins/type/type.c"] = { on_conic = true, on_cubic = true },
+  ["kit/plugins/web/web.c"] = { handle = true },
+  ["kit/plugins/type/xml.c"] = { on_entity = true },
+  ["kit/plugins/type/type.c"] = { on_conic = true, on_cubic = true },
 }
 
 -- ---------------------------------------------------------------- checks

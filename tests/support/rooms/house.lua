@@ -28,7 +28,7 @@ function house.single_user_headers(tree, root)
   for _, file in ipairs(tree.files) do
     local count = 0
     for _ in pairs(users[file] or {}) do count = count + 1 end
-    if file.is_header and file.wing ~= "include" and count <= 1 then
+    if file.is_header and file.house ~= "include" and count <= 1 then
       list[#list + 1] = file.path
     end
   end
@@ -108,8 +108,8 @@ end
 
 --- The only allowed recursion: a rostrum may be an object of a cel, so cels, objects and rostrums
 --- hash and release each other. The scene's types are declared with them.
-local RECURSION = "model/scene/cel model/scene/operands model/scene/primitive_data "
-  .. "model/scene/rostrum model/scene/scene"
+local RECURSION = "core/model/scene/cel core/model/scene/operands "
+  .. "core/model/scene/primitive_data core/model/scene/rostrum core/model/scene/scene"
 
 --- The circles of units by their calls, except the one that is allowed.
 function house.circles(tree)
@@ -124,7 +124,7 @@ function house.put(tree, root)
   local lines, program = 0, 0
   for _, file in ipairs(tree.files) do
     lines = lines + file.lines
-    if file.wing == "program" or file.wing == "cli" then program = program + 1 end
+    if file.wing == "desk/program" then program = program + 1 end
   end
   local headers = house.single_user_headers(tree, root)
   local doubled = house.doubled_types(tree)

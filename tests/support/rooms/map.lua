@@ -30,7 +30,10 @@ local function folders(tree)
   end
   for _, room in ipairs(tree.rooms) do
     add(room:match "^[^/]+")
-    add(room:find "^include" and "include" or room)
+    if not room:find "^include" then
+      add(room:match "^[^/]+/[^/]+")
+      add(room)
+    end
   end
   return list
 end

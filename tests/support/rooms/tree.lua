@@ -5,9 +5,10 @@ local c_source = require "tests.support.rooms.c_source"
 local tree = {}
 tree.__index = tree
 
-local BUILT_APART = { "plugins/moving", "plugins/cairo", "plugins/ocio", "plugins/oiio",
-  "plugins/raster", "plugins/type", "plugins/icc", "plugins/web", "lua/bind", "lua/nouns",
-  "lua/module", "lua/sandbox", "program" }
+local BUILT_APART = { "kit/plugins/moving", "kit/plugins/cairo", "kit/plugins/ocio",
+  "kit/plugins/oiio", "kit/plugins/raster", "kit/plugins/type", "kit/plugins/icc",
+  "kit/plugins/web", "kit/lua/bind", "kit/lua/nouns", "kit/lua/module", "kit/lua/sandbox",
+  "desk/program" }
 local PUBLIC = "include/celspan"
 
 --- The rank of each folder in the list of src/meson.build, followed by those that are built
@@ -39,6 +40,9 @@ local function source_paths(root)
   return paths
 end
 
+--- The name under which sources include a file: its path without the house, or without include/.
+function tree.name(path) return (path:gsub("^%a+/", "", 1)) end
+
 --- The listed folder that contains a path: the longest beginning of the path that is in the list.
 function tree.listed(ranks, path)
   local folder = path:match "^(.*)/"
@@ -46,13 +50,14 @@ function tree.listed(ranks, path)
   return folder
 end
 
---- file.wing and file.top: the first folder of its path, and the listed one, such as engine and
---- engine/area. file.room: the folder that holds it. file.unit: a .c or .cpp, its .h and the
+--- file.house, file.wing and file.top: the first folder of its path, the first two, and the listed
+--- one, such as core, core/engine and core/engine/area. file.room: the folder that holds it. file.unit: a .c or .cpp, its .h and the
 --- kernels of the same name are one unit.
 local function place(file, path, ranks)
   file.path = path
   file.room = path:match "^(.*)/"
-  file.wing = path:match "^[^/]+"
+  file.house = path:match "^[^/]+"
+  file.wing = path:match "^[^/]+/[^/]+"
   file.top = tree.listed(ranks, path) or file.room
   file.is_header = path:find "%.h$" ~= nil
   file.unit = path:gsub("%.%a+$", ""):gsub("_wide$", "")
@@ -85,7 +90,7 @@ function tree.read(root)
     local file = c_source.read(root .. "/src/" .. path)
     place(file, path, self.ranks)
     self.files[#self.files + 1] = file
-    self.named[path:gsub("^include/", "")] = file
+    self.named[tree.name(path)] = file
     self.own[file] = {}
     for _, fn in ipairs(file.functions) do
       fn.file = file

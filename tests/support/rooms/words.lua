@@ -5,13 +5,13 @@ local words = {}
 --- word    as a whole component of a name; -s at its end is left off
 --- forms   other components that count as the word
 --- means   the one meaning it has
---- places  beginnings of paths below src/ where names may hold it
+--- places  beginnings of paths below the houses of src/ where names may hold it
 --- but     beginnings of paths that are not meant by these
 --- say     what to say instead of a word that has no meaning here, and so no places
 words.list = {
   -- words that have one meaning, and the places where they may be used
   { word = "cel", means = "a sheet of artwork on the rostrum",
-    places = { "model/scene/", "frames/", "engine/defocus/", "engine/row/plan",
+    places = { "model/scene/", "frames/", "writers/", "engine/defocus/", "engine/row/plan",
                "tools/relight/", "lua/", "program/" } },
   { word = "cell", means = "what lies between two neighbouring boundaries of a row",
     places = { "engine/compose/", "engine/paint/", "engine/area/", "engine/kernel/",
@@ -49,7 +49,7 @@ words.list = {
     places = { "engine/span/", "engine/area/", "engine/kernel/", "engine/row/", "engine/paint/",
                "engine/map/",
                "engine/compose/", "model/scene/", "engine/sample/", "engine/defocus/",
-               "frames/", "tools/relight/", "output/", "lua/", "program/",
+               "frames/", "writers/", "tools/relight/", "output/", "lua/", "program/", "video/",
                "model/geometry/nurbs", "output/deflate/", "plugins/oiio/plugin/" } },
   { word = "lane", means = "one number of a register",
     places = { "base/wide", "base/vector", "model/colour/", "model/geometry/polyline",
@@ -101,7 +101,9 @@ words.subjects = {
   { name = "how a row is driven", "engine/row/" },
 }
 
+--- path: below src/, with the house or without it.
 function words.begins_with_any(path, beginnings)
+  path = path:gsub("^core/", ""):gsub("^kit/", ""):gsub("^desk/", "")
   for _, beginning in ipairs(beginnings or {}) do
     if path:sub(1, #beginning) == beginning then return true end
   end
