@@ -7,13 +7,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/context.h"
-#include "process/interrupt.h"
+#include "inside/context.h"
+#include "inside/scene.h"
 #include "lua/bind/host.h"
 #include "lua/bind/lua_error.h"
 #include "lua/bind/suggest.h"
 #include "lua/bind/userdata.h"
-#include "model/scene/scene.h"
+#include "process/interrupt.h"
 #include "program/verb_text.h"
 
 #define MOST_NAMES 200 /* the most names that are remembered for the message */

@@ -14,7 +14,7 @@
  */
 #pragma once
 
-#include "frames/film/sequence.h"
+#include "inside/films.h"
 #include "program/script.h"
 
 typedef struct cs_frame_change {

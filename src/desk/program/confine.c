@@ -7,15 +7,13 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/ceiling.h"
-#include "base/context.h"
-#include "base/machine.h"
-#include "base/program.h"
-#include "process/interrupt.h"
-#include "process/journal.h"
+#include "inside/context.h"
+#include "inside/module.h"
 #include "plugins/isolate/client.h"
 #include "plugins/isolate/isolate.h"
 #include "plugins/isolate/strict.h"
+#include "process/interrupt.h"
+#include "process/journal.h"
 
 #define PICTURE_MEMORY ((size_t)1 << 30)
 #define CACHE_MEMORY ((size_t)768 << 20)

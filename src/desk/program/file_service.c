@@ -5,21 +5,21 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "base/open.h"
 #include "common/resolve.h"
-#include "writers/plane/plane.h"
-#include "process/journal.h"
-#include "writers/still/span_reader.h"
+#include "inside/files.h"
+#include "inside/sinks.h"
 #include "lua/bind/userdata.h"
 #include "lua/module/artwork.h"
 #include "lua/module/lua_script.h"
-#include "writers/archive/archive.h"
-#include "writers/join/join.h"
-#include "output/sinks/file.h"
+#include "process/journal.h"
 #include "program/movies.h"
 #include "program/outputs.h"
 #include "program/service.h"
 #include "program/sha256.h"
+#include "writers/archive/archive.h"
+#include "writers/join/join.h"
+#include "writers/plane/plane.h"
+#include "writers/still/span_reader.h"
 
 /* ---------------------------------------------------------------- kinds */
 

@@ -9,7 +9,8 @@
  * two states.
  */
 #include "celspan/lua.h"
-#include "process/interrupt.h"
+#include "inside/colour.h"
+#include "inside/scene.h"
 #include "lua/bind/host.h"
 #include "lua/bind/lua_error.h"
 #include "lua/bind/named.h"
@@ -19,9 +20,7 @@
 #include "lua/bind/warnings.h"
 #include "lua/module/core.h"
 #include "lua/module/subtitles.h"
-#include "model/colour/space.h"
-#include "model/scene/inspect.h"
-#include "model/scene/scene.h"
+#include "process/interrupt.h"
 #include "program/change.h"
 #include "program/outputs.h"
 #include "program/service.h"

@@ -7,8 +7,8 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/program.h"
 #include "celspan/lua.h"
+#include "inside/module.h"
 #include "lua/bind/host.h"
 #include "lua/bind/lua_error.h"
 #include "lua/bind/put.h"

@@ -14,11 +14,11 @@
 #include <string.h>
 #include <sys/resource.h>
 
-#include "base/context.h"
-#include "process/interrupt.h"
+#include "inside/context.h"
 #include "lua/bind/suggest.h"
 #include "plugins/isolate/isolate.h"
 #include "plugins/isolate/zygote.h"
+#include "process/interrupt.h"
 #include "program/commit.h"
 #include "program/confine.h"
 #include "program/log.h"

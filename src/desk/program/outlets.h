@@ -5,11 +5,11 @@
  */
 #pragma once
 
-#include "frames/film/shoot.h"
+#include "inside/films.h"
+#include "program/script.h"
+#include "video/video.h"
 #include "writers/parcels/plot.h"
 #include "writers/plane/plane.h"
-#include "video/video.h"
-#include "program/script.h"
 
 /* An open outlet. */
 typedef struct cs_into {

@@ -6,8 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "output/sinks/file.h"
-#include "output/sinks/sink.h"
+#include "inside/sinks.h"
 #include "program/outlets.h"
 #include "program/target.h"
 #include "program/video_target.h"

@@ -1,7 +1,7 @@
 /* The table of outputs, and what is asked of it: the row of a name, refusals, frames. */
 #pragma once
 
-#include "frames/film/sequence.h"
+#include "inside/films.h"
 #include "program/output.h"
 #include "program/script.h"
 

@@ -10,25 +10,23 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/context.h"
-#include "base/open.h"
 #include "celspan/plane.h"
-#include "process/interrupt.h"
-#include "writers/still/still.h"
+#include "common/difference.h"
+#include "inside/colour.h"
+#include "inside/context.h"
+#include "inside/files.h"
+#include "inside/pictures.h"
+#include "inside/sinks.h"
 #include "lua/bind/put.h"
 #include "lua/bind/userdata.h"
 #include "lua/nouns/lua_film.h"
-#include "model/colour/transfer.h"
-#include "model/pictures/store.h"
-#include "common/difference.h"
-#include "output/sinks/file.h"
-#include "output/sinks/pixels.h"
-#include "output/sinks/sink.h"
+#include "process/interrupt.h"
 #include "program/outputs.h"
 #include "program/service.h"
 #include "program/shown.h"
 #include "program/target.h"
 #include "program/view.h"
+#include "writers/still/still.h"
 
 #define PIXELS_MOST (1 << 26) /* of a picture in memory */
 

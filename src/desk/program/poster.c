@@ -4,10 +4,9 @@
 #include <stdio.h>
 #include <unistd.h>
 
-#include "base/context.h"
-#include "model/scene/scene.h"
-#include "model/scene/walk.h"
-#include "output/sinks/file.h"
+#include "inside/context.h"
+#include "inside/scene.h"
+#include "inside/sinks.h"
 #include "program/change.h"
 #include "program/spaces.h"
 

@@ -13,9 +13,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "base/clock.h"
-#include "base/context.h"
-#include "base/program.h"
+#include "inside/clock.h"
+#include "inside/context.h"
+#include "inside/module.h"
 #include "process/interrupt.h"
 #include "process/spawn.h"
 #include "program/confine.h"

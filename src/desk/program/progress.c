@@ -5,7 +5,7 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
-#include "base/clock.h"
+#include "inside/clock.h"
 #include "process/interrupt.h"
 #include "program/report.h"
 

@@ -4,10 +4,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/context.h"
-#include "frames/render/frame.h"
-#include "output/sinks/coder.h"
-#include "output/sinks/pixels.h"
+#include "inside/context.h"
+#include "inside/frames.h"
+#include "inside/sinks.h"
 
 /* Bytes that are written together: a system call for each row takes long. */
 #define RAW_TOGETHER ((size_t)128 << 10)

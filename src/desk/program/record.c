@@ -7,15 +7,14 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/context.h"
-#include "base/open.h"
-#include "base/sort.h"
-#include "writers/apart/apart.h"
+#include "inside/context.h"
+#include "inside/files.h"
+#include "inside/sort.h"
 #include "process/journal.h"
-#include "output/sinks/file_copy.h"
 #include "program/commit.h"
 #include "program/spaces.h"
 #include "program/target.h"
+#include "writers/apart/apart.h"
 
 enum { LINE_SIZE = 256 };
 

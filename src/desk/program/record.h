@@ -16,7 +16,7 @@
  */
 #pragma once
 
-#include "frames/film/shoot.h"
+#include "inside/films.h"
 #include "program/script.h"
 
 typedef struct cs_record_line {

@@ -10,9 +10,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/context.h"
-#include "writers/apart/apart.h"
-#include "output/sinks/temporary.h"
+#include "inside/context.h"
+#include "inside/files.h"
 #include "program/change.h"
 #include "program/outlets.h"
 #include "program/outputs.h"
@@ -24,6 +23,7 @@
 #include "program/video_target.h"
 #include "program/view.h"
 #include "program/whole.h"
+#include "writers/apart/apart.h"
 
 typedef struct render_job {
   celspan_coding coding; /* of its files */

@@ -17,10 +17,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "base/context.h"
-#include "base/program.h"
-#include "process/spawn.h"
+#include "inside/context.h"
+#include "inside/module.h"
 #include "lua/bind/userdata.h"
+#include "process/spawn.h"
 #include "program/service.h"
 
 #define MESSAGE_MOST ((size_t)1 << 30)

@@ -7,10 +7,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/context.h"
-#include "base/hash.h"
 #include "celspan/lua.h"
-#include "process/interrupt.h"
+#include "inside/context.h"
+#include "inside/hash.h"
 #include "lua/bind/host.h"
 #include "lua/bind/lua_error.h"
 #include "lua/bind/named.h"
@@ -22,6 +21,7 @@
 #include "plugins/sound/loudness.h"
 #include "plugins/sound/sound.h"
 #include "plugins/sound/spectrum.h"
+#include "process/interrupt.h"
 #include "program/confine.h"
 #include "program/movies.h"
 #include "program/request.h"

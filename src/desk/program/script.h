@@ -3,7 +3,7 @@
  */
 #pragma once
 
-#include "base/hash.h"
+#include "inside/hash.h"
 #include "lua/nouns/lua_film.h"
 #include "lua/sandbox/sandbox.h"
 #include "program/request.h"

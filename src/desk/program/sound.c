@@ -8,10 +8,10 @@
 #include <string.h>
 #include <strings.h>
 
-#include "base/context.h"
-#include "frames/film/sequence.h"
-#include "output/sinks/file.h"
-#include "output/sinks/temporary.h"
+#include "inside/context.h"
+#include "inside/files.h"
+#include "inside/films.h"
+#include "inside/sinks.h"
 #include "plugins/sound/wave_file.h"
 #include "program/outputs.h"
 #include "program/progress.h"

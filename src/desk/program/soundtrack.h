@@ -4,7 +4,7 @@
  */
 #pragma once
 
-#include "frames/film/sequence.h"
+#include "inside/films.h"
 #include "lua/module/heard.h"
 #include "program/script.h"
 

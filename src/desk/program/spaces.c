@@ -4,10 +4,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/module.h"
 #include "common/utf8.h"
-#include "model/colour/transfer_names.h"
-#include "model/pictures/configuration.h"
+#include "inside/colour.h"
+#include "inside/module.h"
+#include "inside/pictures.h"
 
 enum { NAME_SIZE = 8192 }; /* bytes; paths may be 4096 long */
 

@@ -3,8 +3,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/clock.h"
-#include "engine/defocus/bands.h"
+#include "inside/clock.h"
+#include "inside/frames.h"
 #include "program/script.h"
 #include "program/shown.h"
 #include "program/verbs.h"

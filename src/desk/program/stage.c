@@ -4,13 +4,11 @@
 #include <string.h>
 
 #include "celspan/celspan.h"
-#include "process/interrupt.h"
+#include "inside/png.h"
+#include "inside/scene.h"
+#include "inside/sinks.h"
 #include "lua/bind/host.h"
-#include "model/scene/scene.h"
-#include "output/png/chunk.h"
-#include "output/png/strips.h"
-#include "output/sinks/pixels.h"
-#include "output/sinks/sink.h"
+#include "process/interrupt.h"
 #include "program/service.h"
 
 #define PIXELS_MOST (1 << 25) /* of a picture in memory */

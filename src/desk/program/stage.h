@@ -5,8 +5,8 @@
 
 #include <lua.h>
 
-#include "model/scene/scene.h"
-#include "output/png/strips.h"
+#include "inside/png.h"
+#include "inside/scene.h"
 #include "program/script.h"
 
 /* Reads which part of the frame that was built last is wanted: the size of the frame, and a crop of

@@ -7,9 +7,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/clock.h"
+#include "inside/clock.h"
+#include "inside/scene.h"
 #include "lua/bind/put.h"
-#include "model/scene/scene.h"
 #include "program/stage.h"
 
 enum { CELS_MOST = 256 };

@@ -23,13 +23,13 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/clock.h"
-#include "base/pipeline.h"
+#include "inside/clock.h"
+#include "inside/frames.h"
+#include "inside/scene.h"
+#include "inside/threads.h"
+#include "lua/bind/userdata.h"
 #include "process/interrupt.h"
 #include "process/spawn.h"
-#include "frames/render/frame.h"
-#include "lua/bind/userdata.h"
-#include "model/scene/scene.h"
 #include "program/json.h"
 #include "program/service.h"
 #include "program/stage.h"

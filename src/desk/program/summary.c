@@ -5,11 +5,11 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include "base/clock.h"
-#include "base/context.h"
+#include "inside/clock.h"
+#include "inside/context.h"
+#include "inside/sinks.h"
 #include "process/child.h"
 #include "process/interrupt.h"
-#include "output/sinks/file.h"
 #include "program/commit.h"
 #include "program/log.h"
 

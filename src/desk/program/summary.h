@@ -4,7 +4,7 @@
  */
 #pragma once
 
-#include "frames/film/shoot.h"
+#include "inside/films.h"
 #include "program/progress.h"
 #include "program/request.h"
 

@@ -3,7 +3,7 @@
 #include <errno.h>
 #include <string.h>
 
-#include "base/context.h"
+#include "inside/context.h"
 
 #define SIZE_MOST ((size_t)64 << 20)
 #define PIECE ((size_t)1 << 16)

@@ -9,15 +9,15 @@
 #include <string.h>
 #include <strings.h>
 
-#include "writers/tiles/page.h"
-#include "writers/tiles/render.h"
-#include "model/scene/scene.h"
-#include "output/sinks/pixels.h"
+#include "inside/scene.h"
+#include "inside/sinks.h"
 #include "program/confine.h"
 #include "program/progress.h"
 #include "program/script.h"
 #include "program/shown.h"
 #include "program/verbs.h"
+#include "writers/tiles/page.h"
+#include "writers/tiles/render.h"
 
 enum { TILE_LEAST = 16, TILE_MOST = 8192, TILES_MOST = 200000, NAME_SIZE = 128 };
 

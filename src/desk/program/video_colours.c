@@ -5,9 +5,8 @@
 #include <string.h>
 #include <strings.h>
 
-#include "base/elementary.h"
-#include "model/colour/primaries.h"
-#include "model/colour/transfer.h"
+#include "inside/colour.h"
+#include "inside/elementary.h"
 #include "program/spaces.h"
 
 /* By how much a code may differ from that of the curve: half a step of 8 bits. */

@@ -2,8 +2,8 @@
 
 #include <string.h>
 
+#include "inside/sinks.h"
 #include "lua/module/subtitles.h"
-#include "output/sinks/file.h"
 #include "program/poster.h"
 #include "program/soundtrack.h"
 #include "program/spaces.h"

@@ -1,7 +1,7 @@
 #include "program/view.h"
 
+#include "inside/sinks.h"
 #include "process/interrupt.h"
-#include "output/sinks/strip.h"
 #include "program/output.h"
 
 /* Film units to pixels, rounded, at least 1; -1 if the result is greater than a frame may be. */

@@ -4,11 +4,11 @@
 #include <errno.h>
 #include <string.h>
 
-#include "base/module.h"
-#include "process/interrupt.h"
+#include "inside/module.h"
 #include "lua/bind/put.h"
 #include "lua/bind/userdata.h"
 #include "plugins/web/module.h"
+#include "process/interrupt.h"
 #include "program/service.h"
 
 enum { HEADERS_MOST = 32, SOURCES_MOST = 64 };

@@ -1,6 +1,6 @@
 #include "program/writers.h"
 
-#include "frames/film/sequence.h"
+#include "inside/films.h"
 #include "writers/plane/plane.h"
 
 static const int usual_precision = 3;

@@ -16,8 +16,8 @@
  *
  * INVARIANT: a file has one of the codecs that its format lists; the first of them is the default.
  */
+#include "inside/sinks.h"
 #include "video/format.h"
-#include "output/sinks/picture_file.h"
 
 /* Drawings are flat between sharp edges: -tune animation uses bits for edges, not for grain. */
 static const char *const H264[] = {"-c:v",  "libx264",   "-preset", "medium",

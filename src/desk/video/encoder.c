@@ -7,7 +7,7 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "base/thread_pool.h"
+#include "inside/threads.h"
 #include "process/interrupt.h"
 
 #define THREADS_NEEDED 32          /* as many as the codecs of a film may start */

@@ -15,9 +15,9 @@
 #include <pthread.h>
 #include <stdatomic.h>
 
-#include "base/context.h"
+#include "common/sound_stream.h"
+#include "inside/context.h"
 #include "process/child.h"
-#include "video/sound_stream.h"
 
 /* A thread that writes the samples of a sound to an encoder, as they are wanted.
  *

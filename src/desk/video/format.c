@@ -4,8 +4,8 @@
 #include <string.h>
 #include <strings.h>
 
-#include "model/pictures/module.h"
-#include "output/sinks/pixels.h"
+#include "inside/pictures.h"
+#include "inside/sinks.h"
 
 static const char *const AAC[] = {"-c:a", "aac", "-b:a", "192k", NULL};
 static const char *const FLAC[] = {"-c:a", "flac", NULL};

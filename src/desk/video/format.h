@@ -18,7 +18,7 @@
  */
 #pragma once
 
-#include "video/sound_stream.h"
+#include "common/sound_stream.h"
 
 /* An encoder of ffmpeg with its pixels: see codec.c. */
 typedef struct cs_video_codec {

@@ -8,7 +8,7 @@
  */
 #pragma once
 
-#include "output/sinks/coder.h"
+#include "inside/sinks.h"
 
 typedef struct cs_planes {
   cs_coder coder;       /* of 8 bits */

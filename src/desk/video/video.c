@@ -4,11 +4,9 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/open.h"
-#include "output/sinks/coder.h"
-#include "output/sinks/pixels.h"
+#include "inside/files.h"
+#include "inside/sinks.h"
 #include "video/planes_sink.h"
-#include "output/sinks/sink.h"
 
 /* ---------------------------------------------------------------- opening */
 

@@ -16,12 +16,11 @@
  */
 #pragma once
 
-#include "frames/film/shoot.h"
-#include "video/slots.h"
+#include "inside/films.h"
+#include "inside/sinks.h"
 #include "video/encoder.h"
 #include "video/format.h"
-#include "output/sinks/file.h"
-#include "output/sinks/picture_file.h"
+#include "video/slots.h"
 
 typedef struct cs_video_desc {
   const char *path;

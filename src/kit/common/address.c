@@ -4,8 +4,8 @@
 #include <strings.h>
 #include <sys/mman.h>
 
-#include "base/hex.h"
-#include "base/open.h"
+#include "inside/files.h"
+#include "inside/number.h"
 
 #define PREFIX "data:;base64,"
 #define PREFIX_SIZE (sizeof PREFIX - 1)

@@ -7,7 +7,7 @@
  */
 #pragma once
 
-#include "base/context.h"
+#include "inside/context.h"
 
 typedef struct cs_address_data {
   unsigned char *bytes;

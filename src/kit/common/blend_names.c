@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "model/colour/blend.h"
+#include "inside/colour.h"
 
 typedef struct name {
   const char *file, *word;

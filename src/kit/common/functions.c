@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stdbool.h>
 
-#include "base/elementary.h"
+#include "inside/elementary.h"
 
 double cs_function_sin(double x) {
   double sine, cosine;

@@ -8,7 +8,7 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "base/clock.h"
+#include "inside/clock.h"
 #include "process/interrupt.h"
 #include "process/spawn.h"
 

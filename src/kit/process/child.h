@@ -11,8 +11,8 @@
 
 #include <sys/types.h>
 
-#include "base/context.h"
-#include "base/thread_pool.h"
+#include "inside/context.h"
+#include "inside/threads.h"
 #include "process/words.h"
 
 #define CS_CHILD_SAMPLES 3 /* the number of the second pipe in the child */

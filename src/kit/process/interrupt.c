@@ -6,7 +6,7 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "output/sinks/temporary.h"
+#include "inside/files.h"
 
 static volatile sig_atomic_t requested_by, is_noticed;
 

@@ -6,7 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "base/open.h"
+#include "inside/files.h"
 
 bool cs_journal_make_folders(char *path) {
   for (char *slash = path; (slash = strchr(slash + 1, '/'));) {

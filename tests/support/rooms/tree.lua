@@ -9,6 +9,7 @@ local BUILT_APART = { "kit/plugins/moving", "kit/plugins/cairo", "kit/plugins/oc
   "kit/plugins/oiio", "kit/plugins/raster", "kit/plugins/type", "kit/plugins/icc",
   "kit/plugins/web", "kit/lua/bind", "kit/lua/nouns", "kit/lua/module", "kit/lua/sandbox",
   "desk/program" }
+local DOOR = "core/inside" -- headers alone, above the core
 local PUBLIC = "include/celspan"
 
 --- The rank of each folder in the list of src/meson.build, followed by those that are built
@@ -24,7 +25,10 @@ function tree.folder_ranks(root)
     count = count + 1
     ranks[name] = count
   end
-  for name in list:gmatch "'([%w_/]+)'" do add(name) end
+  for name in list:gmatch "'([%w_/]+)'" do
+    if name:find "^kit/" then add(DOOR) end
+    add(name)
+  end
   for _, name in ipairs(BUILT_APART) do add(name) end
   return ranks
 end

@@ -4,11 +4,11 @@
 #include <math.h>
 #include <string.h>
 
+#include "inside/scene.h"
 #include "lua/bind/host.h"
 #include "lua/bind/numbers.h"
 #include "lua/bind/suggest.h"
 #include "lua/bind/userdata.h"
-#include "model/scene/check.h"
 
 /* All readers below read the value on top of the stack, which is nil if a required field is
  * missing. */

@@ -4,7 +4,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/tried.h"
+#include "inside/context.h"
 #include "lua/bind/caller.h"
 #include "lua/bind/host.h"
 

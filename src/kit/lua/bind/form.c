@@ -4,7 +4,7 @@
 #include <stdarg.h>
 #include <string.h>
 
-#include "base/number.h"
+#include "inside/number.h"
 #include "lua/bind/caller.h"
 #include "lua/bind/host.h"
 #include "lua/bind/list.h"

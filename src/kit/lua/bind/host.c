@@ -3,7 +3,7 @@
 #include <lauxlib.h>
 #include <string.h>
 
-#include "base/context.h"
+#include "inside/context.h"
 #include "lua/bind/caller.h"
 
 static const char host_key = 0; /* addresses in the registry */

@@ -8,7 +8,7 @@
 
 #include <lua.h>
 
-#include "base/context.h"
+#include "inside/context.h"
 
 /* Why the script is called. Frames that the Lua of a verb builds have their own limits. */
 typedef enum cs_host_call {

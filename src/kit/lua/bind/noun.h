@@ -13,8 +13,8 @@
 #include <lauxlib.h>
 #include <stddef.h>
 
-#include "base/number.h"
 #include "celspan/celspan.h"
+#include "inside/number.h"
 
 struct cs_userdata;
 struct cs_form;

@@ -4,11 +4,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "inside/colour.h"
 #include "lua/bind/caller.h"
 #include "lua/bind/put.h"
 #include "lua/bind/require.h"
 #include "lua/bind/unknown.h"
-#include "model/colour/blend.h"
 
 /* Deep enough for all fields: a list of points. */
 #define COPY_DEPTH 3

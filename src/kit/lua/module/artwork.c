@@ -9,8 +9,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "base/open.h"
-#include "frames/film/sequence.h"
+#include "inside/files.h"
+#include "inside/films.h"
 #include "lua/module/core.h"
 
 enum { HEAD = 64 };

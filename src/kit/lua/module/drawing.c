@@ -16,6 +16,7 @@
 #include <string.h>
 
 #include "celspan/svg.h"
+#include "inside/colour.h"
 #include "lua/bind/bare.h"
 #include "lua/bind/caller.h"
 #include "lua/bind/form.h"
@@ -24,7 +25,6 @@
 #include "lua/bind/put.h"
 #include "lua/bind/userdata.h"
 #include "lua/nouns/shape.h"
-#include "model/colour/space.h"
 #include "readers/svg/art.h"
 #include "readers/svg/read.h"
 

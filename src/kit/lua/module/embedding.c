@@ -5,8 +5,8 @@
  */
 #include <lauxlib.h>
 
-#include "base/description.h"
 #include "celspan/lua.h"
+#include "inside/description.h"
 #include "lua/bind/host.h"
 #include "lua/bind/userdata.h"
 #include "lua/module/core.h"

@@ -4,7 +4,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "base/open.h"
+#include "inside/files.h"
 #include "lua/bind/host.h"
 #include "lua/bind/userdata.h"
 #include "lua/module/core.h"

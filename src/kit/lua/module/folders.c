@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/open.h"
-#include "frames/film/sequence.h"
+#include "inside/files.h"
+#include "inside/films.h"
 #include "lua/bind/host.h"
 #include "lua/bind/userdata.h"
 #include "lua/module/core.h"

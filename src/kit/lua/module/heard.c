@@ -2,8 +2,8 @@
 
 #include <lauxlib.h>
 
-#include "base/description.h"
 #include "celspan/lua.h"
+#include "inside/description.h"
 #include "lua/bind/require.h"
 #include "lua/bind/take.h"
 #include "lua/module/visit.h"

@@ -8,8 +8,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "base/open.h"
 #include "celspan/lua.h"
+#include "inside/files.h"
 #include "lua/bind/caller.h"
 #include "lua/bind/host.h"
 #include "lua/bind/lua_error.h"

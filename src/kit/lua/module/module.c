@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "celspan/lua.h"
+#include "inside/colour.h"
 #include "lua/bind/caller.h"
 #include "lua/bind/construct.h"
 #include "lua/bind/files.h"
@@ -17,8 +18,6 @@
 #include "lua/nouns/nouns.h"
 #include "lua/nouns/placed.h"
 #include "lua/nouns/random.h"
-#include "model/colour/primaries.h"
-#include "model/colour/transfer.h"
 
 #define MOST_NAMES 512
 

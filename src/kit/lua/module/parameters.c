@@ -4,8 +4,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/description.h"
 #include "celspan/lua.h"
+#include "inside/description.h"
 #include "lua/bind/put.h"
 #include "lua/bind/take.h"
 #include "lua/module/visit.h"

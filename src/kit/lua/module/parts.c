@@ -7,14 +7,13 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "inside/scene.h"
 #include "lua/bind/host.h"
 #include "lua/bind/put.h"
 #include "lua/bind/userdata.h"
 #include "lua/module/core.h"
 #include "lua/nouns/nouns.h"
 #include "lua/nouns/options.h"
-#include "model/scene/bounds.h"
-#include "model/scene/scene.h"
 
 enum { PLACE_SIZE = 64, PATH_SIZE = 512 };
 

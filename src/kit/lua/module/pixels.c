@@ -4,8 +4,8 @@
 
 #include <string.h>
 
-#include "base/context.h"
-#include "base/wide.h"
+#include "inside/context.h"
+#include "inside/wide.h"
 #include "lua/bind/caller.h"
 #include "lua/bind/host.h"
 #include "lua/bind/unknown.h"

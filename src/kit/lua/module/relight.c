@@ -2,6 +2,8 @@
 #include <lauxlib.h>
 
 #include "celspan/relight.h"
+#include "inside/pictures.h"
+#include "inside/scene.h"
 #include "lua/bind/bare.h"
 #include "lua/bind/files.h"
 #include "lua/bind/form.h"
@@ -9,8 +11,6 @@
 #include "lua/bind/named.h"
 #include "lua/bind/userdata.h"
 #include "lua/module/core.h"
-#include "model/pictures/store.h"
-#include "model/scene/texture.h"
 
 /* ---------------------------------------------------------------- values */
 

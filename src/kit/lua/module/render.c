@@ -1,7 +1,7 @@
 /* celspan.render: a film or a rostrum into files. */
 #include <string.h>
 
-#include "frames/film/shoot.h"
+#include "inside/films.h"
 #include "lua/bind/caller.h"
 #include "lua/bind/host.h"
 #include "lua/bind/lua_error.h"

@@ -2,13 +2,13 @@
 #include <lauxlib.h>
 
 #include "celspan/relight.h"
+#include "inside/scene.h"
 #include "lua/bind/host.h"
 #include "lua/bind/put.h"
 #include "lua/bind/userdata.h"
 #include "lua/module/core.h"
 #include "lua/module/pixels.h"
 #include "lua/module/subject.h"
-#include "model/scene/scene.h"
 
 #define STACK "celspan.stack"
 enum { NUMBERS = 8 }; /* numbers of one light */

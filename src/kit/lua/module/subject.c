@@ -1,6 +1,6 @@
 #include "lua/module/subject.h"
 
-#include "base/context.h"
+#include "inside/context.h"
 #include "lua/bind/host.h"
 #include "lua/bind/userdata.h"
 #include "lua/nouns/lua_film.h"

@@ -3,14 +3,14 @@
 #include <stdio.h>
 
 #include "celspan/trace.h"
+#include "inside/colour.h"
+#include "inside/pictures.h"
+#include "inside/scene.h"
 #include "lua/bind/host.h"
 #include "lua/bind/list.h"
 #include "lua/bind/put.h"
 #include "lua/bind/userdata.h"
 #include "lua/module/core.h"
-#include "model/colour/transfer.h"
-#include "model/pictures/picture.h"
-#include "model/scene/texture.h"
 #include "tools/trace/result.h"
 
 #define MOST_COLOURS 64

@@ -4,7 +4,7 @@
 #include <lua.h>
 
 #include "celspan/film.h"
-#include "frames/film/film.h"
+#include "inside/films.h"
 
 /* Calls function(value at index, user as light userdata) in protected mode. On success `results`
  * values are left on the stack; otherwise the sentence is in the context. Errors: BAD_ARGUMENT if

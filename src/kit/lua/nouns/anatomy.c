@@ -10,19 +10,16 @@
  */
 #include <math.h>
 
-#include "base/context.h"
-#include "base/number.h"
+#include "inside/context.h"
+#include "inside/geometry.h"
+#include "inside/number.h"
+#include "inside/scene.h"
 #include "lua/bind/bare.h"
 #include "lua/bind/caller.h"
 #include "lua/bind/host.h"
 #include "lua/bind/put.h"
 #include "lua/nouns/nouns.h"
 #include "lua/nouns/shape.h"
-#include "model/geometry/matrix.h"
-#include "model/scene/primitive_data.h"
-#include "model/stroke/outliner.h"
-#include "model/stroke/stroke.h"
-#include "model/warp/bend.h"
 
 /* How far cubics may lie from a curve of another kind, as a share of its longer side. */
 #define WITHIN 0x1p-19

@@ -1,4 +1,5 @@
 /* celspan.cel: a list of objects with its own lights and defocus. */
+#include "inside/colour.h"
 #include "lua/bind/fields.h"
 #include "lua/bind/host.h"
 #include "lua/nouns/grade.h"
@@ -6,7 +7,6 @@
 #include "lua/nouns/light.h"
 #include "lua/nouns/nouns.h"
 #include "lua/nouns/shape.h"
-#include "model/colour/blend.h"
 
 #define DESC celspan_cel_desc
 static const cs_field defocus_fields[] = {

@@ -3,16 +3,16 @@
  * object:boil{...}, the same by a random one. */
 #include <math.h>
 
-#include "base/context.h"
-#include "base/number.h"
-#include "base/splitmix.h"
+#include "inside/context.h"
+#include "inside/elementary.h"
+#include "inside/number.h"
+#include "inside/scene.h"
 #include "lua/bind/bare.h"
 #include "lua/bind/caller.h"
 #include "lua/bind/form.h"
 #include "lua/bind/host.h"
 #include "lua/bind/lua_error.h"
 #include "lua/nouns/nouns.h"
-#include "model/scene/scene.h"
 
 static const cs_noun noun_painted = {.name = "painted", .kind = &cs_kind_object, CS_BARE};
 static const cs_noun noun_warped = {.name = "warped", .kind = &cs_kind_object, CS_BARE};

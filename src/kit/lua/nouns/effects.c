@@ -1,13 +1,13 @@
 /* object:blur, object:displace, object:sharpen, object:shadow, object:glow and object:outline; cels
  * have the last three.
  * The result is a value with the object as its list and the options as its fields. */
+#include "inside/colour.h"
 #include "lua/bind/caller.h"
 #include "lua/bind/construct.h"
 #include "lua/bind/fields.h"
 #include "lua/bind/host.h"
 #include "lua/nouns/nouns.h"
 #include "lua/nouns/shape.h"
-#include "model/colour/space.h"
 
 const char *const cs_nouns_kernels[] = {"gaussian", "box", "disc", "pixel", NULL};
 const char *const cs_nouns_edges[] = {"clear", "extend", NULL};

@@ -1,5 +1,6 @@
 #include "lua/nouns/grade.h"
 
+#include "inside/colour.h"
 #include "lua/bind/fields.h"
 #include "lua/bind/files.h"
 #include "lua/bind/host.h"
@@ -7,7 +8,6 @@
 #include "lua/bind/numbers.h"
 #include "lua/nouns/nouns.h"
 #include "lua/nouns/placed.h"
-#include "model/colour/grade.h"
 
 typedef struct grade_form {
   celspan_grade_desc desc;

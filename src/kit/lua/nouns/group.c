@@ -1,4 +1,5 @@
 /* celspan.group, celspan.key and celspan.matte: objects that are composited by themselves. */
+#include "inside/colour.h"
 #include "lua/bind/caller.h"
 #include "lua/bind/construct.h"
 #include "lua/bind/fields.h"
@@ -7,7 +8,6 @@
 #include "lua/nouns/nouns.h"
 #include "lua/nouns/shape.h"
 #include "lua/nouns/space.h"
-#include "model/colour/blend.h"
 
 /* ---------------------------------------------------------------- groups */
 

@@ -1,9 +1,9 @@
 /* The operations on values: the functions of the core, by kind. */
+#include "inside/scene.h"
 #include "lua/bind/construct.h"
 #include "lua/bind/named.h"
 #include "lua/bind/require.h"
 #include "lua/nouns/nouns.h"
-#include "model/scene/bounds.h"
 
 /* ---------------------------------------------------------------- functions without their types */
 

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "frames/film/sequence.h"
+#include "inside/films.h"
 #include "lua/bind/caller.h"
 #include "lua/bind/construct.h"
 #include "lua/bind/fields.h"

@@ -10,7 +10,7 @@
 
 #include <lua.h>
 
-#include "frames/film/film.h"
+#include "inside/films.h"
 
 /* film: index of a film. The texts live as long as the film. */
 void cs_lua_film_read(lua_State *L, int film, cs_film_info *out);

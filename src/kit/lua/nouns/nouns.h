@@ -5,8 +5,8 @@
  */
 #pragma once
 
+#include "inside/scene.h"
 #include "lua/bind/userdata.h"
-#include "model/scene/scene.h"
 
 extern const cs_noun cs_noun_gradient, cs_noun_linear, cs_noun_radial, cs_noun_conic, cs_noun_noise,
     cs_noun_picture, cs_noun_pattern, cs_noun_rect, cs_noun_triangle, cs_noun_circle,

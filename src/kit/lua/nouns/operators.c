@@ -2,7 +2,7 @@
  * (lua/celspan/draw/operators.lua) has checked the types of the arguments. */
 #include "celspan/operators.h"
 
-#include "base/context.h"
+#include "inside/context.h"
 #include "lua/bind/bare.h"
 #include "lua/bind/caller.h"
 #include "lua/bind/host.h"

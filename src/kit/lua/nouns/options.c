@@ -3,11 +3,11 @@
 #include <math.h>
 #include <string.h>
 
+#include "inside/scene.h"
 #include "lua/bind/caller.h"
 #include "lua/bind/list.h"
 #include "lua/bind/numbers.h"
 #include "lua/bind/userdata.h"
-#include "model/scene/scene.h"
 
 /* ---------------------------------------------------------------- antialiasing */
 

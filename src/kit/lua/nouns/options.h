@@ -1,7 +1,7 @@
 /* Options that several functions share: antialiasing, sizes, crops, codings, exposures. */
 #pragma once
 
-#include "frames/film/film.h"
+#include "inside/films.h"
 #include "lua/bind/fields.h"
 
 /* The options of all functions, while they are read; each function uses only the options of its own

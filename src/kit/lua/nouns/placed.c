@@ -3,6 +3,9 @@
 #include <math.h>
 #include <string.h>
 
+#include "inside/colour.h"
+#include "inside/geometry.h"
+#include "inside/scene.h"
 #include "lua/bind/caller.h"
 #include "lua/bind/construct.h"
 #include "lua/bind/form.h"
@@ -13,9 +16,6 @@
 #include "lua/bind/suggest.h"
 #include "lua/nouns/nouns.h"
 #include "lua/nouns/shape.h"
-#include "model/colour/blend.h"
-#include "model/geometry/matrix.h"
-#include "model/scene/primitive_data.h"
 
 #define PI 3.14159265358979323846
 

@@ -2,7 +2,7 @@
 
 #include <lauxlib.h>
 
-#include "base/splitmix.h"
+#include "inside/elementary.h"
 #include "lua/bind/caller.h"
 #include "lua/bind/numbers.h"
 #include "lua/bind/userdata.h"

@@ -1,12 +1,12 @@
 /* Lines measured by their length, for celspan.motion and everything that goes along a path. */
 #include <math.h>
 
+#include "inside/geometry.h"
+#include "inside/scene.h"
 #include "lua/bind/host.h"
 #include "lua/bind/userdata.h"
 #include "lua/nouns/contours.h"
 #include "lua/nouns/nouns.h"
-#include "model/scene/check.h"
-#include "model/stroke/curve.h"
 
 #define METATABLE "celspan.ruler"
 /* How far away from a place without speed the direction of its piece is taken, by the parameter. */

@@ -14,13 +14,13 @@
  */
 #include <math.h>
 
+#include "inside/geometry.h"
+#include "inside/scene.h"
 #include "lua/bind/bare.h"
 #include "lua/bind/host.h"
 #include "lua/bind/put.h"
 #include "lua/bind/userdata.h"
 #include "lua/nouns/nouns.h"
-#include "model/geometry/matrix.h"
-#include "model/scene/primitive_data.h"
 
 /* How far cubics may lie from curves, as a share of the diagonal of an outline: a fiftieth of a
  * pixel on a large screen. */

@@ -8,7 +8,7 @@
  */
 #pragma once
 
-#include "frames/film/film.h"
+#include "inside/films.h"
 #include "lua/bind/form.h"
 
 /* Checks the field `sound` of a film. Raises. */

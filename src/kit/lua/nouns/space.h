@@ -2,8 +2,8 @@
  * around them. */
 #pragma once
 
+#include "inside/colour.h"
 #include "lua/bind/noun.h"
-#include "model/colour/space.h"
 
 typedef struct cs_own_space {
   bool is_given;

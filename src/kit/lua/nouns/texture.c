@@ -4,7 +4,7 @@
 #include <limits.h>
 #include <math.h>
 
-#include "frames/film/sequence.h"
+#include "inside/films.h"
 #include "lua/bind/files.h"
 #include "lua/bind/host.h"
 #include "lua/nouns/nouns.h"

@@ -7,8 +7,8 @@
 #include <string.h>
 #include <time.h>
 
-#include "base/context.h"
-#include "base/thread_pool.h"
+#include "inside/context.h"
+#include "inside/threads.h"
 #include "lua/bind/caller.h"
 #include "lua/bind/lua_error.h"
 

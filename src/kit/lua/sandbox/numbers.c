@@ -3,9 +3,8 @@
 #include <lauxlib.h>
 #include <string.h>
 
-#include "base/elementary.h"
 #include "common/functions.h"
-#include "base/splitmix.h"
+#include "inside/elementary.h"
 #include "lua/sandbox/library.h"
 
 #define FUNCTION(name, value)                                                                      \

@@ -6,13 +6,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/context.h"
-#include "base/description.h"
+#include "inside/context.h"
+#include "inside/description.h"
+#include "inside/scene.h"
 #include "lua/bind/caller.h"
 #include "lua/bind/lua_error.h"
 #include "lua/bind/require.h"
 #include "lua/sandbox/library.h"
-#include "model/scene/check.h"
 
 /* ---------------------------------------------------------------- roots */
 

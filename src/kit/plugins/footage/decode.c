@@ -4,7 +4,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/clock.h"
+#include "inside/clock.h"
 
 enum { AHEAD = 24 /* pictures that are decoded rather than that another worker starts */ };
 

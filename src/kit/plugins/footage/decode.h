@@ -25,7 +25,7 @@
 
 #include <pthread.h>
 
-#include "base/cache.h"
+#include "inside/cache.h"
 #include "plugins/footage/listing.h"
 #include "plugins/footage/raw.h"
 #include "plugins/isolate/media.h"

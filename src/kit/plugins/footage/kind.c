@@ -4,7 +4,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "base/open.h"
+#include "inside/files.h"
 #include "plugins/footage/listing.h"
 #include "plugins/isolate/media_kind.h"
 

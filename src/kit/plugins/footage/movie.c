@@ -2,9 +2,9 @@
 
 #include <unistd.h>
 
-#include "base/counted.h"
-#include "base/description.h"
-#include "model/pictures/surface.h"
+#include "inside/context.h"
+#include "inside/description.h"
+#include "inside/pictures.h"
 
 /* ---------------------------------------------------------------- the surface of a picture */
 

@@ -11,7 +11,7 @@
  */
 #pragma once
 
-#include "base/hash.h"
+#include "inside/hash.h"
 #include "plugins/footage/decode.h"
 
 typedef struct cs_movie {

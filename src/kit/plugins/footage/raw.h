@@ -10,7 +10,7 @@
  */
 #pragma once
 
-#include "base/context.h"
+#include "inside/context.h"
 
 /* What the planes of a raw picture hold, and what their codes mean. */
 typedef struct cs_raw {

@@ -5,7 +5,7 @@
  */
 #pragma once
 
-#include "base/wide.h"
+#include "inside/wide.h"
 
 /* By how much colours change the light. */
 typedef struct cs_raw_shares {

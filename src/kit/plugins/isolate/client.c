@@ -10,11 +10,11 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "base/program.h"
-#include "process/interrupt.h"
-#include "process/spawn.h"
+#include "inside/module.h"
 #include "plugins/isolate/worker_loop.h"
 #include "plugins/isolate/zygote.h"
+#include "process/interrupt.h"
+#include "process/spawn.h"
 
 enum { PAUSE_MICROSECONDS = 50000 }; /* between two checks for a signal to stop */
 

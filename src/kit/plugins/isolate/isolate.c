@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/context.h"
+#include "inside/context.h"
 #include "plugins/isolate/reader.h"
 
 /* A writer of pictures. Each has a worker of its own, without limits, because the pictures are our

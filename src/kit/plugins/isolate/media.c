@@ -10,12 +10,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "base/clock.h"
-#include "process/interrupt.h"
-#include "process/spawn.h"
+#include "inside/clock.h"
 #include "plugins/isolate/client.h"
 #include "plugins/isolate/media_worker.h"
 #include "plugins/isolate/worker.h"
+#include "process/interrupt.h"
+#include "process/spawn.h"
 
 enum {
   PAUSE = 50,          /* milliseconds between two checks for a signal to stop */

@@ -8,9 +8,9 @@
 
 #include <stdatomic.h>
 
-#include "base/context.h"
-#include "process/words.h"
+#include "inside/context.h"
 #include "plugins/isolate/message.h"
+#include "process/words.h"
 
 typedef struct cs_media {
   const char *noun, *unit, *path; /* for messages: "sound", "samples"; borrowed */

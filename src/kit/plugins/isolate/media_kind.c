@@ -6,7 +6,7 @@
 #include <string.h>
 #include <sys/types.h>
 
-#include "base/open.h"
+#include "inside/files.h"
 
 enum {
   HEAD = 192,

@@ -7,7 +7,7 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "base/clock.h"
+#include "inside/clock.h"
 
 enum { PAUSE_NANOSECONDS = 10000000 };
 

@@ -9,7 +9,7 @@
  */
 #pragma once
 
-#include "model/pictures/module.h"
+#include "inside/pictures.h"
 
 celspan_status cs_reader_open(const cs_picture_request *request, cs_picture_reader **out,
                               cs_picture_header *header, cs_picture_failure *failure);

@@ -10,10 +10,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "base/clock.h"
-#include "process/interrupt.h"
+#include "inside/clock.h"
 #include "plugins/isolate/client.h"
 #include "plugins/isolate/worker_loop.h"
+#include "process/interrupt.h"
 
 enum { LOADING_PARTS = 10 }; /* loading the module may take as long as decoding this many parts */
 

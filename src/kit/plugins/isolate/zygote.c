@@ -11,8 +11,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "base/context.h"
-#include "model/pictures/store.h"
+#include "inside/context.h"
+#include "inside/pictures.h"
 #include "plugins/isolate/media_worker.h"
 #include "plugins/isolate/strict.h"
 

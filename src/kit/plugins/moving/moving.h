@@ -7,7 +7,7 @@
  */
 #pragma once
 
-#include "model/pictures/module.h"
+#include "inside/pictures.h"
 
 #ifdef __cplusplus
 extern "C" {

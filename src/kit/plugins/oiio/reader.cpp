@@ -24,9 +24,9 @@
 #ifndef CELSPAN_WITHOUT_SPACES
 #include "plugins/ocio/conversion.h"
 #endif
-#include "model/colour/transfer_names.h"
-#include "model/pictures/configuration.h"
-#include "plugins/shared/profile_name.h"
+#include "common/profile_name.h"
+#include "inside/colour.h"
+#include "inside/pictures.h"
 #include "plugins/oiio/shared.h"
 #include "plugins/oiio/sniff.h"
 #include "plugins/oiio/source.h"

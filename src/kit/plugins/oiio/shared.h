@@ -13,7 +13,7 @@
 #include <string>
 #include <system_error>
 
-#include "model/pictures/module.h"
+#include "inside/pictures.h"
 
 struct Failure : std::exception {
   celspan_status status;

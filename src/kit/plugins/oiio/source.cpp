@@ -8,7 +8,7 @@
 #include <cstring>
 #include <utility>
 
-#include "plugins/shared/opened.h"
+#include "common/opened.h"
 #include "plugins/oiio/shared.h"
 
 /* The number of reads after the end that a correct reader may need in one task. */

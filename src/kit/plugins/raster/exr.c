@@ -13,7 +13,7 @@
 #include <half.h>
 #include <openexr.h>
 
-#include "model/colour/transfer_names.h"
+#include "inside/colour.h"
 #include "plugins/raster/raster.h"
 
 typedef exr_attr_chlist_entry_t channel;

@@ -8,7 +8,7 @@
 
 #include <jerror.h>
 
-#include "plugins/shared/profile_name.h"
+#include "common/profile_name.h"
 #include "plugins/raster/raster.h"
 
 enum { APP1 = JPEG_APP0 + 1, APP2 = JPEG_APP0 + 2, MARKER_MOST = 0xffff, ORIENTATION = 0x0112 };

@@ -6,7 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "plugins/shared/opened.h"
+#include "common/opened.h"
 #include "plugins/raster/raster.h"
 #include "plugins/raster/write.h"
 

@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "model/colour/transfer_names.h"
-#include "plugins/shared/profile_name.h"
+#include "common/profile_name.h"
+#include "inside/colour.h"
 #include "plugins/raster/raster.h"
 
 enum { GAMMA_LINEAR = 100000 }; /* in units of 1/100000 */

@@ -7,7 +7,7 @@
  */
 #pragma once
 
-#include "model/pictures/module.h"
+#include "inside/pictures.h"
 
 #define CS_RASTER_PIXELS ((uint64_t)1 << 28) /* at most, of a picture that is read or written */
 

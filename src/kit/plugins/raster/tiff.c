@@ -6,7 +6,7 @@
 
 #include <tiffio.h>
 
-#include "plugins/shared/profile_name.h"
+#include "common/profile_name.h"
 #include "plugins/raster/raster.h"
 
 typedef struct reading {

@@ -10,7 +10,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "video/sound_stream.h"
+#include "common/sound_stream.h"
 #include "plugins/isolate/media.h"
 
 typedef struct decoder {

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/elementary.h"
+#include "inside/elementary.h"
 #include "plugins/sound/sound.h"
 
 enum { LOW_FREQUENCY = 1 << 3 /* its bit among the places of WAV files */ };

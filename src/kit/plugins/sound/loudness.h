@@ -9,7 +9,7 @@
  */
 #pragma once
 
-#include "video/sound_stream.h"
+#include "common/sound_stream.h"
 
 enum { CS_LOUDNESS_STEP = 480 /* moments of a sum */ };
 

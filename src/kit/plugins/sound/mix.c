@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "common/address.h"
-#include "base/open.h"
+#include "inside/files.h"
 #include "plugins/sound/sound.h"
 
 enum {

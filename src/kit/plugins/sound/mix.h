@@ -15,9 +15,9 @@
  */
 #pragma once
 
-#include "base/hash.h"
 #include "celspan/film.h"
-#include "video/sound_stream.h"
+#include "common/sound_stream.h"
+#include "inside/hash.h"
 
 enum {
   CS_MIX_RATE = 48000,

@@ -6,7 +6,7 @@
 #include <sys/stat.h>
 
 #include "common/address.h"
-#include "base/open.h"
+#include "inside/files.h"
 #include "plugins/isolate/media_kind.h"
 
 /* ---------------------------------------------------------------- finding */

@@ -8,7 +8,7 @@
  */
 #pragma once
 
-#include "video/sound_stream.h"
+#include "common/sound_stream.h"
 
 typedef struct cs_sound_request {
   const char *path;       /* of a file, or an address that contains it (common/address.h) */

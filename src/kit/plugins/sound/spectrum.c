@@ -2,8 +2,8 @@
 
 #include <string.h>
 
-#include "base/elementary.h"
 #include "common/functions.h"
+#include "inside/elementary.h"
 #include "plugins/sound/sound.h"
 
 enum { WINDOW = 2048 /* moments */, HALF = WINDOW / 2, FULL = 240 /* quarters of a decibel */ };

@@ -10,7 +10,7 @@
  */
 #pragma once
 
-#include "video/sound_stream.h"
+#include "common/sound_stream.h"
 
 enum { CS_SPECTRUM_BANDS = 96, CS_SPECTRUM_STEP = 480 /* moments, of 48,000 in a second */ };
 

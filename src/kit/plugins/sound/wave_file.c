@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "output/sinks/file.h"
+#include "inside/sinks.h"
 
 enum { PIECE = 4096, HEAD = 58, WHOLE_HEAD = 44, FLOAT = 3, WHOLE = 1 };
 

@@ -5,7 +5,7 @@
  */
 #pragma once
 
-#include "video/sound_stream.h"
+#include "common/sound_stream.h"
 
 /* The destination of a WAV file's bytes, in order. Errors of `put`: its own. */
 typedef struct cs_wave_target {

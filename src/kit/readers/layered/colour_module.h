@@ -17,7 +17,7 @@
  */
 #pragma once
 
-#include "model/pictures/module.h"
+#include "inside/pictures.h"
 
 #define CS_COLOUR_MODULE_VERSION 1u
 

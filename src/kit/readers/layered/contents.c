@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/counted.h"
+#include "inside/context.h"
 
 /* ---------------------------------------------------------------- names */
 

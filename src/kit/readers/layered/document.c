@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/decimal.h"
+#include "inside/number.h"
 #include "readers/xml/xml.h"
 
 celspan_status cs_document_fail(const cs_document *document, celspan_status status,

@@ -8,7 +8,7 @@
  */
 #pragma once
 
-#include "base/context.h"
+#include "inside/context.h"
 
 typedef struct cs_input {
   const char *path;           /* borrowed; for bytes in memory, a name for messages */

@@ -2,11 +2,11 @@
 #include <pthread.h>
 #include <string.h>
 
-#include "base/counted.h"
-#include "base/description.h"
-#include "base/hash.h"
 #include "celspan/layers.h"
-#include "model/pictures/surface.h"
+#include "inside/context.h"
+#include "inside/description.h"
+#include "inside/hash.h"
+#include "inside/pictures.h"
 #include "readers/layered/document.h"
 #include "readers/layered/profile_table.h"
 #include "readers/layered/psd.h"

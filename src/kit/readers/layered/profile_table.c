@@ -3,10 +3,10 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/counted.h"
-#include "base/elementary.h"
-#include "base/module.h"
-#include "model/colour/transfer.h"
+#include "inside/colour.h"
+#include "inside/context.h"
+#include "inside/elementary.h"
+#include "inside/module.h"
 
 enum { MOST = 65535 };
 

@@ -6,7 +6,7 @@
  */
 #pragma once
 
-#include "base/hash.h"
+#include "inside/hash.h"
 #include "readers/layered/colour_module.h"
 #include "readers/layered/input.h"
 

@@ -3,10 +3,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/counted.h"
-#include "base/hash_table.h"
-#include "model/scene/primitive_data.h"
-#include "model/scene/value.h"
+#include "inside/context.h"
+#include "inside/hash.h"
+#include "inside/scene.h"
 #include "readers/svg/objects.h"
 
 /* ---------------------------------------------------------------- life */

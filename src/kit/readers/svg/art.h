@@ -11,9 +11,9 @@
  */
 #pragma once
 
-#include "base/arena.h"
-#include "base/hash.h"
 #include "celspan/svg.h"
+#include "inside/cache.h"
+#include "inside/hash.h"
 #include "readers/svg/recipe.h"
 
 /* The facts about an element of the file, also for elements without a name. */

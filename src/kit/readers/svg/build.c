@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/number.h"
+#include "inside/number.h"
 #include "readers/svg/art.h"
 #include "readers/svg/boxes.h"
 #include "readers/svg/cascade.h"

@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "celspan/svg.h"
-#include "model/scene/check.h"
+#include "inside/scene.h"
 #include "readers/svg/art.h"
 
 typedef struct changing {

@@ -2,8 +2,8 @@
 
 #include <math.h>
 
-#include "base/number.h"
-#include "model/scene/primitive_data.h"
+#include "inside/number.h"
+#include "inside/scene.h"
 #include "readers/svg/boxes.h"
 #include "readers/svg/shapes.h"
 #include "readers/svg/text.h"

@@ -4,9 +4,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/elementary.h"
-#include "base/number.h"
-#include "model/colour/transfer.h"
+#include "inside/colour.h"
+#include "inside/elementary.h"
+#include "inside/number.h"
 #include "readers/svg/transforms.h"
 
 #define PI 3.14159265358979323846

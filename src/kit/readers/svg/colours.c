@@ -4,8 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/hex.h"
-#include "base/number.h"
+#include "inside/number.h"
 #include "readers/svg/transforms.h"
 
 /* The colours that have names, sorted. Source: CSS Color Module Level 4, 6.1. */

@@ -5,7 +5,7 @@
 #include <string.h>
 #include <strings.h>
 
-#include "base/sort.h"
+#include "inside/sort.h"
 #include "readers/svg/forms.h"
 #include "readers/svg/silent.h"
 #include "readers/svg/values.h"

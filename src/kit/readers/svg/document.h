@@ -6,8 +6,8 @@
  */
 #pragma once
 
-#include "base/arena.h"
-#include "base/hash_table.h"
+#include "inside/cache.h"
+#include "inside/hash.h"
 #include "readers/svg/css.h"
 #include "readers/svg/names.h"
 #include "readers/svg/values.h"

@@ -2,9 +2,9 @@
 
 #include <math.h>
 
-#include "base/elementary.h"
-#include "base/number.h"
-#include "model/colour/transfer.h"
+#include "inside/colour.h"
+#include "inside/elementary.h"
+#include "inside/number.h"
 
 #define DEGREES_TO_RADIANS (3.14159265358979323846 / 180)
 /* Values of a table, at most. */

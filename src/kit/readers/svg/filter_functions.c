@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#include "base/number.h"
+#include "inside/number.h"
 #include "readers/svg/filter_colours.h"
 
 /* Functions cut off nothing that is nearer than this, and no length is greater. */

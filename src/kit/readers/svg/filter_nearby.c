@@ -2,8 +2,8 @@
 
 #include <math.h>
 
-#include "base/elementary.h"
-#include "base/number.h"
+#include "inside/elementary.h"
+#include "inside/number.h"
 
 #define DEGREES_TO_RADIANS (3.14159265358979323846 / 180)
 #define EXPONENT_MOST 128

@@ -6,7 +6,7 @@
  */
 #pragma once
 
-#include "model/scene/nearby.h"
+#include "inside/scene.h"
 #include "readers/svg/filter_colours.h"
 #include "readers/svg/style.h"
 

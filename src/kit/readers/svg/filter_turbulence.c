@@ -6,7 +6,7 @@
 #include <stdint.h>
 #include <string.h>
 
-#include "base/number.h"
+#include "inside/number.h"
 #include "readers/svg/image.h"
 #include "readers/svg/objects.h"
 

@@ -4,9 +4,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/number.h"
-#include "model/colour/blend.h"
-#include "model/geometry/matrix.h"
+#include "inside/colour.h"
+#include "inside/geometry.h"
+#include "inside/number.h"
 #include "readers/svg/filter_colours.h"
 #include "readers/svg/filter_nearby.h"
 #include "readers/svg/filter_turbulence.h"

@@ -4,9 +4,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/number.h"
-#include "model/colour/space.h"
-#include "model/colour/transfer.h"
+#include "inside/colour.h"
+#include "inside/number.h"
 #include "readers/svg/shapes.h"
 #include "readers/svg/transforms.h"
 

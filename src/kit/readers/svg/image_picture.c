@@ -7,8 +7,8 @@
 #include <unistd.h>
 
 #include "common/address.h"
-#include "base/number.h"
-#include "model/pictures/store.h"
+#include "inside/number.h"
+#include "inside/pictures.h"
 #include "readers/layered/png.h"
 
 /* Rows that the picture module gives at a time. */

@@ -8,9 +8,9 @@
 #include <unistd.h>
 
 #include "common/address.h"
-#include "base/error_text.h"
-#include "base/open.h"
 #include "common/resolve.h"
+#include "inside/context.h"
+#include "inside/files.h"
 
 /* ---------------------------------------------------------------- kinds */
 

@@ -2,8 +2,8 @@
 
 #include <math.h>
 
-#include "base/number.h"
 #include "celspan/text.h"
+#include "inside/number.h"
 #include "readers/text/layout.h"
 
 /* Letters that are larger than this draw nothing. */

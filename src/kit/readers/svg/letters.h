@@ -16,7 +16,7 @@
  */
 #pragma once
 
-#include "model/geometry/outline.h"
+#include "inside/geometry.h"
 #include "readers/svg/written.h"
 #include "readers/text/layout.h"
 

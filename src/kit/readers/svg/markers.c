@@ -2,8 +2,8 @@
 
 #include <string.h>
 
-#include "base/number.h"
-#include "model/geometry/matrix.h"
+#include "inside/geometry.h"
+#include "inside/number.h"
 #include "readers/svg/shapes.h"
 #include "readers/svg/transforms.h"
 

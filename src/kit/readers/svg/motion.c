@@ -1,6 +1,6 @@
 #include "readers/svg/motion.h"
 
-#include "base/number.h"
+#include "inside/number.h"
 
 celspan_status cs_svg_move(cs_svg_reading *reading, double *seconds) {
   const cs_svg_document *document = reading->document;

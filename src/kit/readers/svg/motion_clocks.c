@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/sort.h"
+#include "inside/sort.h"
 #include "readers/svg/motion_lists.h"
 
 /* ---------------------------------------------------------------- times */

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/number.h"
+#include "inside/number.h"
 
 /* A cubic from 0 to 1 with these two values between. */
 static double cubic(double first, double second, double t) {

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/elementary.h"
+#include "inside/elementary.h"
 #include "readers/svg/transforms.h"
 
 #define PI 3.14159265358979323846

@@ -4,8 +4,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/number.h"
-#include "model/geometry/matrix.h"
+#include "inside/geometry.h"
+#include "inside/number.h"
 #include "readers/svg/motion_lists.h"
 #include "readers/svg/written.h"
 

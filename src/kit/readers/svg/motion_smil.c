@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/sort.h"
+#include "inside/sort.h"
 #include "readers/svg/motion.h"
 #include "readers/svg/silent.h"
 

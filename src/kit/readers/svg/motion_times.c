@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#include "base/context.h"
+#include "inside/context.h"
 
 /* How many steps for each animation are tried to find whether they ever end. */
 #define TRIES 64

@@ -9,8 +9,8 @@
  */
 #pragma once
 
-#include "base/arena.h"
 #include "celspan/celspan.h"
+#include "inside/cache.h"
 
 /* The most beginnings, ends and messages between animations of a drawing up to a time. */
 #define CS_SVG_MOTION_STEPS 4000000

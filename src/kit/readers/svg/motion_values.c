@@ -5,7 +5,7 @@
 #include <string.h>
 #include <strings.h>
 
-#include "base/number.h"
+#include "inside/number.h"
 #include "readers/svg/colours.h"
 #include "readers/svg/offset.h"
 #include "readers/svg/transforms.h"

@@ -7,8 +7,8 @@
 
 #include <stdbool.h>
 
-#include "base/arena.h"
-#include "base/hash_table.h"
+#include "inside/cache.h"
+#include "inside/hash.h"
 
 /* Each element: its enumerator after CS_SVG_ELEMENT_, its text. */
 #define CS_SVG_ELEMENT_LIST(ELEMENT)                                                               \

@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#include "model/scene/bounds.h"
+#include "inside/scene.h"
 
 /* The least ratio of the smaller radius of a blur to the greater one: smaller ratios look the same,
  * and would stretch the object without limit. */

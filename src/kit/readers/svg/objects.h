@@ -2,7 +2,7 @@
  * NULL draws nothing. */
 #pragma once
 
-#include "base/context.h"
+#include "inside/context.h"
 
 /* Releases *object and puts `made` in its place, or NULL where `status` is a failure. Returns
  * status. */

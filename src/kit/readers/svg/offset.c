@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/number.h"
+#include "inside/number.h"
 #include "readers/svg/transforms.h"
 #include "readers/svg/ways.h"
 

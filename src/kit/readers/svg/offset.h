@@ -8,8 +8,8 @@
  */
 #pragma once
 
-#include "base/arena.h"
-#include "base/context.h"
+#include "inside/cache.h"
+#include "inside/context.h"
 #include "readers/svg/names.h"
 #include "readers/svg/values.h"
 

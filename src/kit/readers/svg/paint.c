@@ -1,6 +1,6 @@
 #include "readers/svg/paint.h"
 
-#include "model/scene/primitive_data.h"
+#include "inside/scene.h"
 #include "readers/svg/servers.h"
 #include "readers/svg/shapes.h"
 

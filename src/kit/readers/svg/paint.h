@@ -1,7 +1,7 @@
 /* The object of a basic shape or a path: its outline, filled. */
 #pragma once
 
-#include "model/geometry/outline.h"
+#include "inside/geometry.h"
 #include "readers/svg/reading.h"
 
 /* *out: new, in the drawing's units; NULL for nothing. */

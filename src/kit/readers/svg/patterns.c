@@ -1,7 +1,7 @@
 /* Patterns: an element whose contents are drawn as art that repeats, for one shape. */
 #include "readers/svg/painted.h"
 
-#include "base/number.h"
+#include "inside/number.h"
 #include "readers/svg/shapes.h"
 #include "readers/svg/transforms.h"
 #include "readers/svg/viewport.h"

@@ -6,12 +6,12 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "base/description.h"
-#include "base/hash.h"
-#include "base/number.h"
-#include "base/open.h"
-#include "base/sort.h"
-#include "model/scene/check.h"
+#include "inside/description.h"
+#include "inside/files.h"
+#include "inside/hash.h"
+#include "inside/number.h"
+#include "inside/scene.h"
+#include "inside/sort.h"
 #include "readers/svg/art.h"
 #include "readers/svg/boxes.h"
 #include "readers/svg/motion.h"

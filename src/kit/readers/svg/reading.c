@@ -4,9 +4,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/number.h"
-#include "model/colour/transfer.h"
-#include "model/geometry/matrix.h"
+#include "inside/colour.h"
+#include "inside/geometry.h"
+#include "inside/number.h"
 #include "readers/svg/shapes.h"
 #include "readers/svg/transforms.h"
 

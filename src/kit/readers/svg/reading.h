@@ -9,8 +9,8 @@
  */
 #pragma once
 
-#include "base/hash_table.h"
 #include "celspan/svg.h"
+#include "inside/hash.h"
 #include "readers/svg/style.h"
 
 #define CS_SVG_DRAWN 1000000 /* the most elements that are drawn, counted again at each `use` */

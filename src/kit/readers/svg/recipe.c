@@ -1,7 +1,7 @@
 #include "readers/svg/recipe.h"
 
-#include "base/context.h"
-#include "model/scene/value.h"
+#include "inside/context.h"
+#include "inside/scene.h"
 
 celspan_status cs_svg_recipe_create(celspan_context *context, cs_svg_recipe **out) {
   cs_svg_recipe *recipe;

@@ -16,7 +16,7 @@
 
 #include <stdatomic.h>
 
-#include "model/scene/nearby.h"
+#include "inside/scene.h"
 
 #define CS_SVG_SOURCES 2 /* the element, and its silhouette in black */
 /* How often the result of a recipe may contain the sources. */

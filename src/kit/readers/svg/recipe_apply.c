@@ -1,11 +1,8 @@
 /* Applying recipes: each step makes an object of earlier ones, in a table of makers. */
 #include <math.h>
 
-#include "base/context.h"
-#include "model/scene/bounds.h"
-#include "model/scene/displace.h"
-#include "model/scene/nearby.h"
-#include "model/scene/primitive_data.h"
+#include "inside/context.h"
+#include "inside/scene.h"
 #include "readers/svg/objects.h"
 #include "readers/svg/recipe.h"
 #include "readers/svg/shapes.h"

@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#include "base/number.h"
+#include "inside/number.h"
 
 static celspan_status unfit(celspan_context *context, const cs_svg_node *node, cs_svg_name name,
                             const char *value) {

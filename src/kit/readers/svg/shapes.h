@@ -1,7 +1,7 @@
 /* Outlines of the basic shapes and of paths, in the user units of their element; rectangles. */
 #pragma once
 
-#include "model/geometry/outline.h"
+#include "inside/geometry.h"
 #include "readers/svg/document.h"
 #include "readers/svg/values.h"
 

@@ -2,10 +2,9 @@
 
 #include <math.h>
 
-#include "base/number.h"
-#include "model/scene/bounds.h"
-#include "model/scene/primitive_data.h"
-#include "model/stroke/curve.h"
+#include "inside/geometry.h"
+#include "inside/number.h"
+#include "inside/scene.h"
 #include "readers/svg/servers.h"
 #include "readers/svg/shapes.h"
 

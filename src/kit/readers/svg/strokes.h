@@ -5,7 +5,7 @@
  */
 #pragma once
 
-#include "model/geometry/outline.h"
+#include "inside/geometry.h"
 #include "readers/svg/reading.h"
 
 bool cs_svg_is_stroked(const cs_svg_style *style);

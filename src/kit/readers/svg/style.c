@@ -2,8 +2,8 @@
 
 #include <string.h>
 
-#include "base/number.h"
-#include "model/colour/blend.h"
+#include "inside/colour.h"
+#include "inside/number.h"
 #include "readers/svg/cascade.h"
 #include "readers/svg/filter_list.h"
 

@@ -6,7 +6,7 @@
 #pragma once
 
 #include "celspan/svg.h"
-#include "model/geometry/outline.h"
+#include "inside/geometry.h"
 #include "readers/svg/art.h"
 #include "readers/svg/reading.h"
 

@@ -4,8 +4,8 @@
 #include <string.h>
 #include <strings.h>
 
-#include "base/number.h"
-#include "model/geometry/matrix.h"
+#include "inside/geometry.h"
+#include "inside/number.h"
 
 #define PI 3.14159265358979323846
 #define ARGUMENTS 16

@@ -3,8 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/decimal.h"
-#include "base/number.h"
+#include "inside/number.h"
 
 static char lower(char c) { return c >= 'A' && c <= 'Z' ? (char)(c - 'A' + 'a') : c; }
 

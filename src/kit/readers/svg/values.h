@@ -5,8 +5,8 @@
  */
 #pragma once
 
-#include "base/arena.h"
 #include "celspan/celspan.h"
+#include "inside/cache.h"
 
 typedef enum cs_svg_unit {
   CS_SVG_UNIT_NUMBER, /* also for px: absolute units are converted to it */

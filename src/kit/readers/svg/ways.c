@@ -1,7 +1,7 @@
 #include "readers/svg/ways.h"
 
-#include "base/elementary.h"
-#include "model/stroke/curve.h"
+#include "inside/elementary.h"
+#include "inside/geometry.h"
 
 #define DEGREES (180 / 3.14159265358979323846)
 

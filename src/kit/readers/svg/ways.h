@@ -1,7 +1,7 @@
 /* Lines measured by their length, along which letters and whole elements are placed. */
 #pragma once
 
-#include "model/geometry/outline.h"
+#include "inside/geometry.h"
 
 /* All zero is a line of no length. */
 typedef struct cs_svg_way {

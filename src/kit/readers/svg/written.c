@@ -4,7 +4,7 @@
 #include <stddef.h>
 #include <string.h>
 
-#include "base/number.h"
+#include "inside/number.h"
 #include "readers/svg/shapes.h"
 #include "readers/svg/shown.h"
 #include "readers/text/layout.h"

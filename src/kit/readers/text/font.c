@@ -6,11 +6,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "base/context.h"
-#include "base/error_text.h"
-#include "base/hash.h"
-#include "base/open.h"
-#include "base/tried.h"
+#include "inside/context.h"
+#include "inside/files.h"
+#include "inside/hash.h"
 #include "readers/xml/artwork.h"
 #include "readers/xml/type.h"
 

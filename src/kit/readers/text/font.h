@@ -9,9 +9,9 @@
  */
 #pragma once
 
-#include "base/cache.h"
 #include "celspan/text.h"
-#include "model/geometry/outline.h"
+#include "inside/cache.h"
+#include "inside/geometry.h"
 #include "readers/xml/type.h"
 
 typedef struct cs_font {

@@ -1,9 +1,9 @@
 /* The public constructors of text: all letters as one primitive, or one primitive a letter. */
 #include <string.h>
 
-#include "base/description.h"
 #include "celspan/text.h"
-#include "model/scene/primitive_data.h"
+#include "inside/description.h"
+#include "inside/scene.h"
 #include "readers/text/layout.h"
 
 struct celspan_glyphs {

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "celspan/text.h"
-#include "model/scene/check.h"
+#include "inside/scene.h"
 #include "readers/text/utf8.h"
 
 #define LANGUAGE_BYTES 64

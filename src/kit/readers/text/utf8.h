@@ -4,7 +4,7 @@
  */
 #pragma once
 
-#include "base/context.h"
+#include "inside/context.h"
 
 /* Appends nothing to the arrays beyond `size` items, which they have room for; a "\r" before a "\n"
  * is left out.

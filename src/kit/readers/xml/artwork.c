@@ -1,6 +1,6 @@
 #include "readers/xml/artwork.h"
 
-#include "base/module.h"
+#include "inside/module.h"
 
 /* The part of a context that belongs to the module: its table, NULL until it is loaded. Two threads
  * that load it at once get the same table. */

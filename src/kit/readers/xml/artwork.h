@@ -2,7 +2,7 @@
  * nothing for it. */
 #pragma once
 
-#include "base/context.h"
+#include "inside/context.h"
 #include "readers/xml/module.h"
 
 /* purpose: for the message if there is no module, such as "reading SVG". Errors: INPUT, NO_MEMORY.

@@ -6,7 +6,7 @@
  */
 #pragma once
 
-#include "base/context.h"
+#include "inside/context.h"
 #include "readers/xml/module.h"
 
 /* Parses `size` bytes. When a handler's function answers false it has recorded a failure in the

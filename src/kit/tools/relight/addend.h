@@ -19,8 +19,8 @@
  */
 #pragma once
 
-#include "base/context.h"
-#include "base/wide.h"
+#include "inside/context.h"
+#include "inside/wide.h"
 
 typedef enum cs_addend_kind {
   CS_ADDEND_SINGLE,

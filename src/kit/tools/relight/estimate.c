@@ -7,11 +7,11 @@
  */
 #include <math.h>
 
-#include "base/description.h"
-#include "base/elementary.h"
-#include "common/solve.h"
 #include "celspan/relight.h"
-#include "model/scene/check.h"
+#include "common/solve.h"
+#include "inside/description.h"
+#include "inside/elementary.h"
+#include "inside/scene.h"
 #include "tools/relight/light_field.h"
 #include "tools/relight/original.h"
 

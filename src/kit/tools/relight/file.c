@@ -6,9 +6,8 @@
 #include <strings.h>
 
 #include "celspan/relight.h"
-#include "model/scene/check.h"
-#include "output/sinks/file.h"
-#include "output/sinks/picture_file.h"
+#include "inside/scene.h"
+#include "inside/sinks.h"
 #include "tools/relight/original.h"
 
 #define CHANNELS 7

@@ -2,8 +2,8 @@
 
 #include <math.h>
 
-#include "base/elementary.h"
-#include "model/scene/check.h"
+#include "inside/elementary.h"
+#include "inside/scene.h"
 #include "tools/relight/original.h"
 
 /* Lights are limited to this range, and fields to this range times exp(EXPONENT), so that quotients

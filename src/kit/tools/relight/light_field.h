@@ -11,8 +11,8 @@
  */
 #pragma once
 
-#include "base/context.h"
 #include "celspan/relight.h"
+#include "inside/context.h"
 
 /* Refuses a light by which nothing can be divided. noun: the owner of the light, for the message.
  * Errors: BAD_ARGUMENT, naming the channel. */

@@ -2,8 +2,8 @@
 
 #include <string.h>
 
-#include "model/pictures/load.h"
-#include "model/scene/check.h"
+#include "inside/pictures.h"
+#include "inside/scene.h"
 
 celspan_status cs_original_open_picture(celspan_context *context, const cs_picture *picture,
                                         cs_original *out) {

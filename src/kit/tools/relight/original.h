@@ -8,8 +8,8 @@
  */
 #pragma once
 
-#include "model/pictures/store.h"
-#include "model/scene/texture.h"
+#include "inside/pictures.h"
+#include "inside/scene.h"
 
 #define CS_ORIGINAL_ROWS CS_PICTURE_BLOCK
 /* The most pixels of a picture. */

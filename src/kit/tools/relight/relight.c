@@ -12,8 +12,8 @@
  * pixels are far from them, the given lights cannot be right, which is an error.
  */
 #include "celspan/relight.h"
-#include "base/number.h"
-#include "model/scene/check.h"
+#include "inside/number.h"
+#include "inside/scene.h"
 #include "tools/relight/light_field.h"
 #include "tools/relight/original.h"
 

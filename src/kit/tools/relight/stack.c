@@ -15,14 +15,12 @@
 #include <stdatomic.h>
 #include <string.h>
 
-#include "base/counted.h"
-#include "base/description.h"
-#include "base/thread_pool.h"
 #include "celspan/relight.h"
-#include "frames/render/frame.h"
-#include "model/scene/check.h"
-#include "model/scene/scene.h"
-#include "model/scene/walk.h"
+#include "inside/context.h"
+#include "inside/description.h"
+#include "inside/frames.h"
+#include "inside/scene.h"
+#include "inside/threads.h"
 #include "tools/relight/addend.h"
 
 #define MOST_CELS 4096

@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#include "base/number.h"
+#include "inside/number.h"
 
 /* Steps of Newton's method to the least error, which is near 0. */
 enum { STEPS = 8 };

@@ -1,6 +1,6 @@
 #include "tools/trace/borders.h"
 
-#include "base/sort.h"
+#include "inside/sort.h"
 
 static inline bool is_before(const cs_node *a, const cs_node *b) {
   return a->y != b->y ? a->y < b->y : a->x < b->x;

@@ -3,9 +3,9 @@
 
 #include <string.h>
 
-#include "base/elementary.h"
-#include "model/colour/srgb8_lanes.h"
-#include "model/pictures/load.h"
+#include "inside/colour.h"
+#include "inside/elementary.h"
+#include "inside/pictures.h"
 
 enum { BITS = 5, BINS = 1 << 3 * BITS, ROUNDS = 32 };
 /* The greatest difference between codes of neighbours in a flat place. */

@@ -13,8 +13,8 @@
  */
 #pragma once
 
-#include "model/colour/srgb8.h"
-#include "model/pictures/picture.h"
+#include "inside/colour.h"
+#include "inside/pictures.h"
 
 /* The picture that is traced, in memory: 8-bit sRGB codes with straight alpha, four bytes a pixel,
  * and the light that they mean.

@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#include "base/number.h"
+#include "inside/number.h"
 #include "tools/trace/stretches.h"
 
 /* The number of points on either side of doubtful ones that are examined with them. */

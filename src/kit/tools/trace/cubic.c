@@ -2,8 +2,8 @@
 
 #include <math.h>
 
-#include "base/number.h"
 #include "common/solve.h"
+#include "inside/number.h"
 
 /* How often the parameters are moved towards the curve, and the most points that are examined for
  * this. */

@@ -2,8 +2,8 @@
 
 #include <math.h>
 
-#include "base/elementary.h"
-#include "base/number.h"
+#include "inside/elementary.h"
+#include "inside/number.h"
 #include "tools/trace/corners.h"
 
 /* Closed chains with fewer sides or fewer points are not changed. */

@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#include "base/number.h"
+#include "inside/number.h"
 #include "tools/trace/colours.h"
 
 /* Shares that count as 0, and as 1. */

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/number.h"
+#include "inside/number.h"
 #include "tools/trace/cubic.h"
 #include "tools/trace/stretches.h"
 

@@ -3,8 +3,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/number.h"
-#include "base/sort.h"
+#include "inside/number.h"
+#include "inside/sort.h"
 #include "tools/trace/colours.h"
 #include "tools/trace/spline.h"
 #include "tools/trace/thinning.h"

@@ -1,6 +1,6 @@
 #include "tools/trace/result.h"
 
-#include "base/counted.h"
+#include "inside/context.h"
 
 #define SHAPES_MOST 1048576
 

@@ -5,8 +5,8 @@
  */
 #pragma once
 
-#include "base/context.h"
 #include "celspan/trace.h"
+#include "inside/context.h"
 
 typedef struct cs_shape {
   unsigned char colour[3];

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/number.h"
+#include "inside/number.h"
 
 enum { DEGREE = 3, STEPS = 80 };
 

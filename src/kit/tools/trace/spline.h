@@ -6,7 +6,7 @@
  */
 #pragma once
 
-#include "base/context.h"
+#include "inside/context.h"
 
 typedef struct cs_station { /* a place along a line */
   double v[3];              /* x, y, width */

@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#include "base/number.h"
+#include "inside/number.h"
 #include "tools/trace/street.h"
 
 /* ---------------------------------------------------------------- preimage */

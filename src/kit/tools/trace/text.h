@@ -5,7 +5,7 @@
  */
 #pragma once
 
-#include "base/context.h"
+#include "inside/context.h"
 
 typedef struct cs_writing {
   char *bytes; /* ends in a zero once anything is added */

@@ -6,11 +6,11 @@
  */
 #include <string.h>
 
-#include "base/counted.h"
-#include "base/description.h"
-#include "base/sort.h"
 #include "celspan/trace.h"
-#include "model/scene/check.h"
+#include "inside/context.h"
+#include "inside/description.h"
+#include "inside/scene.h"
+#include "inside/sort.h"
 #include "tools/trace/borders.h"
 #include "tools/trace/colours.h"
 #include "tools/trace/curves.h"

@@ -4,10 +4,10 @@
 #include <string.h>
 #include <strings.h>
 
-#include "base/elementary.h"
-#include "base/number.h"
 #include "celspan/trace.h"
-#include "output/sinks/file.h"
+#include "inside/elementary.h"
+#include "inside/number.h"
+#include "inside/sinks.h"
 #include "tools/trace/fit.h"
 #include "tools/trace/result.h"
 #include "tools/trace/spline.h"

@@ -3,9 +3,9 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "base/number.h"
 #include "common/solve.h"
-#include "base/splitmix.h"
+#include "inside/elementary.h"
+#include "inside/number.h"
 
 enum { MOST_UNKNOWNS = 8, SAMPLES = 300, REFINEMENTS = 12 };
 

@@ -11,8 +11,8 @@
  */
 #pragma once
 
-#include "base/context.h"
 #include "celspan/track.h"
+#include "inside/context.h"
 
 enum { CS_MOTION_MOST = 256 }; /* pairs */
 

@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#include "base/number.h"
+#include "inside/number.h"
 
 enum { MOST_STEPS = 25, WIDE_SIDE = CS_PATCH_SIDE + 2 };
 

@@ -3,8 +3,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/number.h"
-#include "base/sort.h"
+#include "inside/number.h"
+#include "inside/sort.h"
 
 enum { LEAST_SIDE = 16 };
 

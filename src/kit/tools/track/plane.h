@@ -10,7 +10,7 @@
  */
 #pragma once
 
-#include "base/context.h"
+#include "inside/context.h"
 
 enum { CS_PLANE_LEVELS = 6 };
 

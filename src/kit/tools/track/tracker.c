@@ -17,9 +17,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/description.h"
-#include "base/number.h"
 #include "celspan/track.h"
+#include "inside/description.h"
+#include "inside/number.h"
 #include "tools/track/motion.h"
 #include "tools/track/patch.h"
 #include "tools/track/plane.h"

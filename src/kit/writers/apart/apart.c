@@ -3,8 +3,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "model/colour/blend.h"
-#include "model/scene/scene.h"
+#include "inside/colour.h"
+#include "inside/scene.h"
 
 /* ---------------------------------------------------------------- layers */
 

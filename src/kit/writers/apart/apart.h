@@ -14,9 +14,9 @@
  */
 #pragma once
 
-#include "base/context.h"
-#include "base/hash.h"
 #include "celspan/celspan.h"
+#include "inside/context.h"
+#include "inside/hash.h"
 
 /* Layers of a frame at most: as many as the picture modules read, with the composite. */
 enum { CS_APART_MOST = 255, CS_APART_NAME = 256 };

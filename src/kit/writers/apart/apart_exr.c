@@ -9,15 +9,14 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "inside/colour.h"
+#include "inside/frames.h"
+#include "inside/scene.h"
+#include "inside/sinks.h"
 #include "writers/apart/apart.h"
 #include "writers/apart/cryptomatte.h"
 #include "writers/apart/sources.h"
-#include "frames/render/frame.h"
-#include "model/colour/primaries.h"
-#include "model/scene/inspect.h"
 #include "writers/exr/exr.h"
-#include "output/sinks/file.h"
-#include "output/sinks/pixels.h"
 
 enum { CHANNELS = 4, SUFFIX = 2 }; /* ".R" */
 

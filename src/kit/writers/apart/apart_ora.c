@@ -10,13 +10,12 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "common/markup.h"
-#include "writers/apart/apart.h"
-#include "frames/render/frame.h"
 #include "common/blend_names.h"
+#include "common/markup.h"
+#include "inside/frames.h"
+#include "inside/sinks.h"
+#include "writers/apart/apart.h"
 #include "writers/archive/archive.h"
-#include "output/sinks/pixels.h"
-#include "output/sinks/sink.h"
 
 enum { THUMBNAIL = 256 }; /* pixels a side at most */
 

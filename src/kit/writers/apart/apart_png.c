@@ -3,8 +3,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "inside/frames.h"
 #include "writers/apart/apart.h"
-#include "frames/render/frame.h"
 
 /* Bytes of a file's name, of its temporary name more, and of the number behind an equal name. */
 enum { NAME_MOST = 255, MORE = 24, NUMBER = 24 };

@@ -1,8 +1,8 @@
 /* A Photoshop document: a layer a cel, of the size of the frame. */
+#include "inside/frames.h"
+#include "inside/sinks.h"
 #include "writers/apart/apart.h"
-#include "frames/render/frame.h"
 #include "writers/photoshop/photoshop.h"
-#include "output/sinks/pixels.h"
 
 typedef struct writing {
   const celspan_frame_desc *desc;

@@ -4,8 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/thread_pool.h"
-#include "output/sinks/pixels.h"
+#include "inside/sinks.h"
+#include "inside/threads.h"
 
 /* Weights below this are differences between roundings of equal alphas. */
 #define LEAST 0x1p-16f

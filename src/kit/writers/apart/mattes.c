@@ -3,9 +3,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "inside/scene.h"
 #include "writers/apart/apart.h"
-#include "model/scene/primitive_data.h"
-#include "model/scene/scene.h"
 
 /* ---------------------------------------------------------------- names */
 

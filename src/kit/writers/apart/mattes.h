@@ -18,8 +18,7 @@
  */
 #pragma once
 
-#include "base/context.h"
-#include "base/mark.h"
+#include "inside/context.h"
 
 /* Steps of a frame at most: each is rendered. */
 enum { CS_MATTES_MOST = 255 };

@@ -1,8 +1,8 @@
 #include "writers/apart/sources.h"
 
-#include "base/thread_pool.h"
-#include "frames/render/frame.h"
-#include "output/sinks/pixels.h"
+#include "inside/frames.h"
+#include "inside/sinks.h"
+#include "inside/threads.h"
 
 celspan_status cs_sources_begin(celspan_context *context, const celspan_coding *coding,
                                 int32_t width, size_t count, cs_sources *out) {

@@ -9,8 +9,8 @@
  */
 #pragma once
 
-#include "base/context.h"
 #include "celspan/celspan.h"
+#include "inside/context.h"
 
 #define CS_SOURCES_PORTION ((size_t)8 << 20) /* bytes of rows that are made together */
 

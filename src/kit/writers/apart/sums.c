@@ -3,12 +3,11 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "writers/apart/apart.h"
-#include "model/colour/blend.h"
 #include "common/blend_names.h"
-#include "model/scene/texture.h"
-#include "model/scene/walk.h"
-#include "output/sinks/pixels.h"
+#include "inside/colour.h"
+#include "inside/scene.h"
+#include "inside/sinks.h"
+#include "writers/apart/apart.h"
 
 static bool is_gel(const celspan_texture *texture) {
   return texture && !cs_texture_is_grey(texture);

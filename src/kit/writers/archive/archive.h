@@ -10,7 +10,7 @@
  */
 #pragma once
 
-#include "output/sinks/file.h"
+#include "inside/sinks.h"
 
 enum { CS_ARCHIVE_NAME = 40 };
 

@@ -2,7 +2,7 @@
 
 #include <zlib.h>
 
-#include "base/sort.h"
+#include "inside/sort.h"
 #include "writers/exr/rate.h"
 
 #define WIDE ((size_t)1 << 20) /* the bytes of a row from which on a chunk has one */

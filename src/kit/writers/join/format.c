@@ -6,7 +6,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "base/open.h"
+#include "inside/files.h"
 
 celspan_status cs_join_part_fail(celspan_context *context, const cs_join_part *part,
                                  const char *format, ...) {

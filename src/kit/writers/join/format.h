@@ -9,11 +9,9 @@
 
 #include <spanfile.h>
 
-#include "base/hash.h"
-#include "output/deflate/deflate.h"
-#include "output/sinks/file.h"
-#include "output/sinks/strip.h"
-#include "output/sinks/tga.h"
+#include "inside/hash.h"
+#include "inside/png.h"
+#include "inside/sinks.h"
 
 /* A file that will be joined: its place, and its bytes. Its contents are not trusted: numbers are
  * checked before they are used, and nothing is allocated by them. */

@@ -4,9 +4,9 @@
 #include <strings.h>
 #include <sys/stat.h>
 
+#include "inside/files.h"
+#include "inside/sinks.h"
 #include "writers/join/format.h"
-#include "output/sinks/file.h"
-#include "output/sinks/temporary.h"
 
 static const cs_join_format *const FORMATS[] = {&cs_join_png, &cs_join_tga, &cs_join_span};
 

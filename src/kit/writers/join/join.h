@@ -11,7 +11,7 @@
  */
 #pragma once
 
-#include "base/context.h"
+#include "inside/context.h"
 
 /* paths: of the parts, from top to bottom. Errors: INPUT for a part that is missing, damaged, no
  * strip or out of order; BAD_ARGUMENT if the output's ending belongs to another format, or if the

@@ -17,8 +17,8 @@
 #include <string.h>
 #include <zlib.h>
 
+#include "inside/png.h"
 #include "writers/join/format.h"
-#include "output/png/chunk.h"
 
 enum { SIDE_MOST = 1048576, SIZE_MOST = 0x7fffffff };
 

@@ -8,8 +8,8 @@
  */
 #include <math.h>
 
+#include "inside/geometry.h"
 #include "writers/parcels/making.h"
-#include "model/geometry/outline.h"
 
 enum { HALVINGS = 6, SIDE_HALVINGS = 8, ROOT_STEPS = 60 };
 #define SIDE ((double)PLANEFILE_SIDE)

@@ -2,7 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/sort.h"
+#include "inside/sort.h"
 #include "writers/parcels/making.h"
 
 typedef enum event_kind { EVENT_END, EVENT_BEGIN, EVENT_VISIT } event_kind;

@@ -6,9 +6,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/hash.h"
+#include "inside/colour.h"
+#include "inside/hash.h"
 #include "writers/parcels/making.h"
-#include "model/colour/transfer.h"
 
 enum { SAMPLES = 64, STRETCHES = 256 /* between stops, at most */ };
 #define GOOD 0.6            /* codes: how far colours may be from a straight line */

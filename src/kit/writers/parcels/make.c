@@ -9,7 +9,7 @@
 
 #include <math.h>
 
-#include "base/sort.h"
+#include "inside/sort.h"
 #include "writers/parcels/making.h"
 
 /* ---------------------------------------------------------------- arcs of a plane */

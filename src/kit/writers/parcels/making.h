@@ -1,7 +1,7 @@
 /* The parts of making parcels: fills.c, arcs.c. */
 #pragma once
 
-#include "base/hash_table.h"
+#include "inside/hash.h"
 #include "writers/parcels/parcels.h"
 #include "writers/plane/plane_data.h"
 

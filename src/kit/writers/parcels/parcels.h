@@ -18,8 +18,8 @@
  */
 #pragma once
 
-#include "base/context.h"
 #include "celspan/plane.h"
+#include "inside/context.h"
 
 typedef enum cs_fill_kind {
   CS_FILL_CLEAR, /* fill 0 and no other */

@@ -4,13 +4,13 @@
 #include <math.h>
 #include <string.h>
 
+#include "inside/frames.h"
+#include "inside/scene.h"
 #include "writers/parcels/boxes.h"
 #include "writers/parcels/plot_picture.h"
 #include "writers/parcels/plot_text.h"
 #include "writers/parcels/under.h"
 #include "writers/plane/plane.h"
-#include "frames/render/frame.h"
-#include "model/scene/check.h"
 
 #define GROWN 1.6     /* pixels: how far an area continues under another one */
 #define OPAQUE 0.999f /* alpha, rounded */

@@ -8,8 +8,8 @@
  */
 #pragma once
 
-#include "base/context.h"
 #include "celspan/plane.h"
+#include "inside/context.h"
 
 typedef enum cs_flat {
   CS_FLAT_OVER,   /* there are strokes under the areas */

@@ -1,5 +1,5 @@
 /* Drawings as PDF. */
-#include "base/module.h"
+#include "inside/module.h"
 #include "writers/parcels/plot_text.h"
 
 static bool put(void *user, const void *bytes, size_t size) {

@@ -3,9 +3,8 @@
 #include <errno.h>
 #include <string.h>
 
-#include "base/open.h"
-#include "output/sinks/file.h"
-#include "output/sinks/sink.h"
+#include "inside/files.h"
+#include "inside/sinks.h"
 
 static celspan_status draw_png(celspan_context *context, const char *path,
                                const cs_plot_picture *picture, cs_file *into) {

@@ -6,8 +6,8 @@
 #pragma once
 
 #include "celspan/celspan.h"
+#include "inside/sinks.h"
 #include "writers/parcels/plotter.h"
-#include "output/sinks/file.h"
 
 typedef struct cs_plot_text {
   celspan_context *context;

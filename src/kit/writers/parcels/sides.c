@@ -7,7 +7,7 @@
  * Of a sum of several pictures it is the sum of several numbers, and the sum of their squares is
  * less than its square: so both are kept.
  */
-#include "base/sort.h"
+#include "inside/sort.h"
 #include "writers/parcels/making.h"
 
 static inline bool is_before(const cs_side_change *a, const cs_side_change *b) {

@@ -8,7 +8,7 @@
  */
 #include <math.h>
 
-#include "base/sort.h"
+#include "inside/sort.h"
 #include "writers/parcels/making.h"
 
 enum { VISITS = 3, HEIGHTS = 3, MOST = 16 /* arcs that lie on each other */ };

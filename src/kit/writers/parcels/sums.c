@@ -5,7 +5,7 @@
  */
 #include <math.h>
 
-#include "base/sort.h"
+#include "inside/sort.h"
 #include "writers/parcels/making.h"
 
 enum { HEIGHTS = 32, HEIGHTS_MOST = 288, ROOT_STEPS = 40 };

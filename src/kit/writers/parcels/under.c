@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#include "base/sort.h"
+#include "inside/sort.h"
 #include "writers/parcels/making.h"
 
 enum { VISITS = 5 /* heights at which an arc is compared with those beside it */, GRADES = 8 };

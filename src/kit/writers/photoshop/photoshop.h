@@ -20,7 +20,7 @@
 #pragma once
 
 #include "celspan/celspan.h"
-#include "output/sinks/file.h"
+#include "inside/sinks.h"
 
 /* The most pixels a side, the most layers, the channels of one, and the steps of opacities. */
 enum {

@@ -3,12 +3,11 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/error_text.h"
-#include "base/open.h"
+#include "inside/context.h"
+#include "inside/files.h"
+#include "inside/sinks.h"
 #include "writers/photoshop/bytes.h"
 #include "writers/photoshop/photoshop.h"
-#include "output/sinks/pixels.h"
-#include "output/sinks/sink.h"
 
 typedef struct photoshop_sink {
   cs_photoshop *document;

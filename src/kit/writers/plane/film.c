@@ -2,10 +2,10 @@
 #include <math.h>
 
 #include "celspan/plane.h"
+#include "inside/sinks.h"
 #include "writers/plane/plane.h"
 #include "writers/plane/plane_data.h"
 #include "writers/record/record.h"
-#include "output/sinks/file.h"
 
 struct cs_plane_film {
   celspan_context *context;

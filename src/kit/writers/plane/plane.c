@@ -13,16 +13,15 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "base/counted.h"
-#include "base/description.h"
-#include "base/open.h"
-#include "engine/defocus/defocus.h"
+#include "inside/context.h"
+#include "inside/description.h"
+#include "inside/files.h"
+#include "inside/frames.h"
+#include "inside/scene.h"
+#include "inside/sinks.h"
 #include "writers/plane/plane.h"
 #include "writers/plane/plane_data.h"
-#include "frames/render/compile.h"
-#include "model/scene/check.h"
 #include "writers/record/record.h"
-#include "output/sinks/file.h"
 
 #define BYTES_MOST ((uint64_t)1 << 30) /* of a file */
 

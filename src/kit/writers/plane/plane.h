@@ -1,10 +1,10 @@
 /* Planes for the other rooms: rows of one, one after the other, and frames as plane files. */
 #pragma once
 
-#include "base/context.h"
-#include "base/hash.h"
 #include "celspan/celspan.h"
 #include "celspan/plane.h"
+#include "inside/context.h"
+#include "inside/hash.h"
 
 /* Whether a file is read as a plane: it begins as plane files do, or its name has their ending. */
 bool cs_plane_accepts(const char *path);

@@ -7,9 +7,9 @@
 #include <planefile.h>
 #include <stdatomic.h>
 
-#include "base/context.h"
 #include "celspan/plane.h"
-#include "engine/row/plan.h"
+#include "inside/context.h"
+#include "inside/frames.h"
 #include "writers/record/recording.h"
 
 struct celspan_plane {

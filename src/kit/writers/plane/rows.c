@@ -1,12 +1,11 @@
 /* Rows of planes: spans of the subproject become spans of rows. */
-#include "base/description.h"
 #include "celspan/plane.h"
-#include "engine/span/row.h"
+#include "inside/description.h"
+#include "inside/frames.h"
+#include "inside/scene.h"
+#include "inside/sinks.h"
 #include "writers/plane/plane.h"
 #include "writers/plane/plane_data.h"
-#include "model/scene/check.h"
-#include "output/sinks/pixels.h"
-#include "output/sinks/sink.h"
 
 struct cs_plane_rows {
   celspan_context *context;

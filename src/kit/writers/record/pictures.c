@@ -3,8 +3,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/number.h"
-#include "model/pictures/load.h"
+#include "inside/number.h"
+#include "inside/pictures.h"
 #include "writers/record/places.h"
 
 #define NODES_MOST ((size_t)1 << 23)

@@ -14,8 +14,7 @@
  */
 #pragma once
 
-#include "engine/compose/stack.h"
-#include "engine/defocus/defocus.h"
+#include "inside/frames.h"
 #include "writers/record/recording.h"
 
 /* The picture by which an image layer is recorded. Errors: NO_MEMORY, and those of reading the

@@ -5,7 +5,7 @@
  */
 #pragma once
 
-#include "model/geometry/matrix.h"
+#include "inside/geometry.h"
 #include "writers/record/recording.h"
 
 static inline void cs_place_plane(const double over_pixels[3], double out[3]) {

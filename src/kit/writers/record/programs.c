@@ -4,8 +4,8 @@
 #include <float.h>
 #include <math.h>
 
-#include "base/number.h"
-#include "engine/paint/over_row.h"
+#include "inside/frames.h"
+#include "inside/number.h"
 #include "writers/record/pictures.h"
 #include "writers/record/places.h"
 

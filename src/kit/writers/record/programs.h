@@ -13,8 +13,8 @@
  */
 #pragma once
 
-#include "base/hash_table.h"
-#include "engine/compose/cell.h"
+#include "inside/frames.h"
+#include "inside/hash.h"
 #include "writers/record/recording.h"
 
 /* The source of a program. */

@@ -2,9 +2,9 @@
 
 #include <math.h>
 
-#include "base/hash_table.h"
-#include "base/number.h"
-#include "engine/events/visit.h"
+#include "inside/frames.h"
+#include "inside/hash.h"
+#include "inside/number.h"
 #include "writers/record/pictures.h"
 #include "writers/record/programs.h"
 

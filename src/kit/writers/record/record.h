@@ -12,7 +12,7 @@
  */
 #pragma once
 
-#include "engine/row/plan.h"
+#include "inside/frames.h"
 #include "writers/record/recording.h"
 
 /* Begins a plane that is the sum of several plans; out: empty. Without this call, a plane is one

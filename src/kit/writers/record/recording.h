@@ -12,7 +12,7 @@
 #include <planefile.h>
 #include <stddef.h>
 
-#include "base/context.h"
+#include "inside/context.h"
 
 #define CS_RECORD_SIDE 16381 /* pixels of the plan's width and height */
 

@@ -7,10 +7,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "base/context.h"
-#include "base/open.h"
-#include "model/colour/transfer.h"
-#include "model/pictures/module.h"
+#include "inside/colour.h"
+#include "inside/context.h"
+#include "inside/files.h"
+#include "inside/pictures.h"
 
 struct cs_span_reader {
   celspan_context *context;

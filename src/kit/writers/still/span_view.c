@@ -17,7 +17,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/context.h"
+#include "inside/context.h"
 
 /* Sums below this are rounding errors of steps that cancel. */
 #define NOTHING 1e-12

@@ -8,13 +8,12 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "base/clock.h"
-#include "base/context.h"
+#include "inside/clock.h"
+#include "inside/context.h"
+#include "inside/files.h"
+#include "inside/pictures.h"
+#include "inside/scene.h"
 #include "process/journal.h"
-#include "model/pictures/picture.h"
-#include "model/scene/scene.h"
-#include "model/scene/walk.h"
-#include "output/sinks/temporary.h"
 
 enum {
   LINE_SIZE = 128,

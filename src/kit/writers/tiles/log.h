@@ -11,7 +11,7 @@
  */
 #pragma once
 
-#include "base/hash.h"
+#include "inside/hash.h"
 #include "writers/tiles/rows.h"
 
 /* The inputs of a pyramid: a run with equal inputs makes equal tiles. */

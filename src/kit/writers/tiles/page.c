@@ -6,8 +6,8 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/context.h"
-#include "output/sinks/file.h"
+#include "inside/context.h"
+#include "inside/sinks.h"
 
 /* page.html, which has marks for its script and its data, and viewer.js; each ends with a zero. */
 extern const unsigned char cs_tile_page_html[], cs_tile_page_viewer[];

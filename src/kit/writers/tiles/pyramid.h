@@ -21,7 +21,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "base/context.h"
+#include "inside/context.h"
 
 typedef enum cs_pyramid_layout { CS_PYRAMID_DZI = 0, CS_PYRAMID_IIIF } cs_pyramid_layout;
 

@@ -2,9 +2,9 @@
 
 #include <string.h>
 
-#include "base/context.h"
+#include "inside/context.h"
+#include "inside/sinks.h"
 #include "process/interrupt.h"
-#include "output/sinks/sink.h"
 
 enum {
   WORKERS_MOST = 64,

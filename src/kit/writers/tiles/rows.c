@@ -5,13 +5,12 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/context.h"
-#include "base/thread_pool.h"
+#include "inside/context.h"
+#include "inside/files.h"
+#include "inside/sinks.h"
+#include "inside/threads.h"
 #include "process/interrupt.h"
 #include "process/journal.h"
-#include "output/sinks/pixels.h"
-#include "output/sinks/sink.h"
-#include "output/sinks/temporary.h"
 
 enum {
   PATH_SIZE = 4096,

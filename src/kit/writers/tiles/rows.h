@@ -14,8 +14,8 @@
 #include <pthread.h>
 #include <stdatomic.h>
 
-#include "base/hash_table.h"
-#include "engine/span/row_queue.h"
+#include "inside/frames.h"
+#include "inside/hash.h"
 #include "writers/tiles/pyramid.h"
 
 /* The tiles that are written already: a hash of their coded pixels, and their place in the pyramid.

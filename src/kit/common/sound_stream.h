@@ -8,7 +8,7 @@
  */
 #pragma once
 
-#include "base/context.h"
+#include "inside/context.h"
 
 enum {
   CS_SOUND_STREAM_CHANNELS = 64,

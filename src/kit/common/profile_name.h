@@ -12,7 +12,7 @@
 #include <stdint.h>
 #include <string.h>
 
-#include "model/pictures/module.h"
+#include "inside/pictures.h"
 
 #define CS_PROFILE_UNNAMED "without a name"
 

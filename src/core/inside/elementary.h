@@ -1,0 +1,9 @@
+/* Functions with the same bits on every machine.
+ *
+ *     base/elementary.h  The last bit does not change without new goldens.
+ *     base/splitmix.h    The sequence of numbers of a seed does not change.
+ */
+#pragma once
+
+#include "base/elementary.h"
+#include "base/splitmix.h"
