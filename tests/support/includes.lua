@@ -1,4 +1,5 @@
--- Checks that includes go only down the list of folders, and are never circular.
+-- Checks that includes go only down the list of folders, are never circular, and reach the core
+-- from the other houses through its door alone.
 --
 --   lua5.4 tests/support/includes.lua [ROOT]
 --
@@ -83,6 +84,8 @@ local function check_include(path, include)
     fault("%s: the folder of %s is not in the list", place, from and include.name or path)
   elseif ranks[to] > ranks[from] then
     fault('%s: "%s" comes after %s in the list of folders', place, include.name, from)
+  elseif to:find "^core/" and to ~= tree.DOOR and not from:find "^core/" then
+    fault('%s: "%s" is behind the door of the core, %s', place, include.name, tree.DOOR)
   end
 end
 

@@ -11,7 +11,6 @@
  *     model/scene/nearby.h          Effects that read neighbouring pixels.
  *     model/scene/value.h           What all values have in common.
  *     model/scene/displace.h        Objects whose pixels come from elsewhere.
- *     model/scene/nearby_object.h   Objects with an effect of neighbours.
  *     model/scene/grade.h           Objects that are graded.
  */
 #pragma once
@@ -22,7 +21,6 @@
 #include "model/scene/grade.h"
 #include "model/scene/inspect.h"
 #include "model/scene/nearby.h"
-#include "model/scene/nearby_object.h"
 #include "model/scene/primitive_data.h"
 #include "model/scene/scene.h"
 #include "model/scene/texture.h"
