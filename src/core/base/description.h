@@ -20,6 +20,7 @@ typedef struct cs_description {
   size_t needed; /* bytes up to the end of the last field that must be given */
 } cs_description;
 
+/* Those of the core; the kit defines its own where it reads them. */
 #define CS_DESCRIPTIONS(EACH)                                                                      \
   EACH(celspan_context_desc)                                                                       \
   EACH(celspan_picture_desc)                                                                       \
@@ -53,18 +54,25 @@ typedef struct cs_description {
   EACH(celspan_frame_desc)                                                                         \
   EACH(celspan_sink)                                                                               \
   EACH(celspan_coding)                                                                             \
-  EACH(celspan_file_desc)                                                                          \
-  EACH(celspan_text_desc)                                                                          \
-  EACH(celspan_svg_desc)                                                                           \
-  EACH(celspan_trace_desc)                                                                         \
-  EACH(celspan_plane_desc)                                                                         \
-  EACH(celspan_plane_view)                                                                         \
-  EACH(celspan_light_estimate_desc)                                                                \
-  EACH(celspan_tracker_desc)
+  EACH(celspan_file_desc)
 
 #define CS_DECLARE_DESCRIPTION(type) extern const cs_description cs_##type##_description;
 CS_DESCRIPTIONS(CS_DECLARE_DESCRIPTION)
 #undef CS_DECLARE_DESCRIPTION
+
+/* Defines the description of a type and what sets its defaults: the last field that must be given,
+ * then the defaults that are not 0. */
+#define CS_DESCRIBE(type_, last, ...)                                                              \
+  extern const cs_description cs_##type_##_description;                                            \
+  static const type_ type_##_defaults = {.struct_size = sizeof(type_), __VA_ARGS__};               \
+  const cs_description cs_##type_##_description = {.type = #type_,                                 \
+                                                   .defaults = &type_##_defaults,                  \
+                                                   .size = sizeof(type_),                          \
+                                                   .needed = offsetof(type_, last) +               \
+                                                             sizeof(((type_ *)0)->last)};          \
+  void type_##_default(type_ *out, size_t struct_size) {                                           \
+    cs_description_write(&cs_##type_##_description, &type_##_defaults, out, struct_size);          \
+  }
 
 /* Makes *out the full form of the given description. noun: for messages. context: NULL if there is
  * none yet. Errors: BAD_ARGUMENT. */

@@ -30,10 +30,8 @@ local function folders(tree)
   end
   for _, room in ipairs(tree.rooms) do
     add(room:match "^[^/]+")
-    if not room:find "^include" then
-      add(room:match "^[^/]+/[^/]+")
-      add(room)
-    end
+    add(room:match "^[^/]+/[^/]+")
+    if not room:find "^%a+/include/" then add(room) end
   end
   return list
 end

@@ -1,10 +1,9 @@
 --- The figures of a tree's structure, as plain tables.
 local circles = require "tests.support.rooms.circles"
+local tree_of = require "tests.support.rooms.tree"
 local words = require "tests.support.rooms.words"
 
 local measures = {}
-
-local PUBLIC = "include/"
 
 --- The value below or at which this share of the list lies.
 function measures.quantile(list, share)
@@ -118,7 +117,7 @@ function measures.misplaced(tree)
   local list, count = {}, 0
   for _, file in ipairs(tree.files) do
     local seen = {}
-    for _, name in ipairs(file.room:sub(1, #PUBLIC) == PUBLIC and {} or file.names) do
+    for _, name in ipairs(tree_of.is_public(file.room) and {} or file.names) do
       local key = (name.owner or "") .. "." .. name.name
       if name.kind ~= "prototype" and not seen[key] then
         seen[key] = true

@@ -12,7 +12,6 @@ local BUILT_APART = { "kit/plugins/moving", "kit/plugins/cairo", "kit/plugins/oc
   "kit/plugins/oiio", "kit/plugins/raster", "kit/plugins/type", "kit/plugins/icc",
   "kit/plugins/web", "kit/lua/bind", "kit/lua/nouns", "kit/lua/module", "kit/lua/sandbox",
   "desk/program" }
-local PUBLIC = "include/celspan"
 
 --- The rank of each folder in the list of src/meson.build, followed by those that are built
 --- separately.
@@ -21,14 +20,17 @@ function tree.folder_ranks(root)
   local list = file:read("a"):match "foreach%s+layer%s*:%s*(%b[])"
   file:close()
   assert(list, "src/meson.build: no list of layers found")
-  local ranks, count = { include = 0 }, 0
+  local ranks, count = { ["core/include"] = 0 }, 0
   local function add(name)
     if ranks[name] then return end
     count = count + 1
     ranks[name] = count
   end
   for name in list:gmatch "'([%w_/]+)'" do
-    if name:find "^kit/" then add(tree.DOOR) end
+    if name:find "^kit/" then
+      add(tree.DOOR)
+      add "kit/include"
+    end
     add(name)
   end
   for _, name in ipairs(BUILT_APART) do add(name) end
@@ -46,8 +48,11 @@ local function source_paths(root)
   return paths
 end
 
+--- Whether a folder or a file is of the headers for hosts.
+function tree.is_public(path) return path:find "^%a+/include/" ~= nil end
+
 --- The name under which sources include a file: its path without the house, or without include/.
-function tree.name(path) return (path:gsub("^%a+/", "", 1)) end
+function tree.name(path) return (path:gsub("^%a+/", "", 1):gsub("^include/", "")) end
 
 --- The listed folder that contains a path: the longest beginning of the path that is in the list.
 function tree.listed(ranks, path)
@@ -57,8 +62,8 @@ function tree.listed(ranks, path)
 end
 
 --- file.house, file.wing and file.top: the first folder of its path, the first two, and the listed
---- one, such as core, core/engine and core/engine/area. file.room: the folder that holds it. file.unit: a .c or .cpp, its .h and the
---- kernels of the same name are one unit.
+--- one, such as core, core/engine and core/engine/area. file.room: the folder that holds it.
+--- file.unit: a .c or .cpp, its .h and the kernels of the same name are one unit.
 local function place(file, path, ranks)
   file.path = path
   file.room = path:match "^(.*)/"
@@ -154,7 +159,7 @@ function tree:each_edge(visit, only_includes)
   for _, file in ipairs(self.files) do
     for _, include in ipairs(file.includes) do
       local to = self.named[include.name]
-      local is_meant = to and to.room ~= PUBLIC
+      local is_meant = to and not tree.is_public(to.room)
       if is_meant and (only_includes or not is_declared_by(file, to)) then
         visit(file, to, include)
       end

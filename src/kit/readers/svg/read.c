@@ -17,6 +17,8 @@
 #include "readers/svg/motion.h"
 #include "readers/svg/read.h"
 
+CS_DESCRIBE(celspan_svg_desc, struct_size, .space = CELSPAN_SPACE_SRGB, .seconds = -1)
+
 #define FILE_BYTES ((size_t)256 << 20)
 #define KEPT 64  /* drawings */
 #define FONTS 64 /* the most fonts of one drawing */

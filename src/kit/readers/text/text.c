@@ -6,6 +6,8 @@
 #include "inside/scene.h"
 #include "readers/text/layout.h"
 
+CS_DESCRIBE(celspan_text_desc, font_count, .size = 48, .leading = 1.2)
+
 struct celspan_glyphs {
   cs_memory *memory;
   char *text; /* a copy, to which the glyphs point */

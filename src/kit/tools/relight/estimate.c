@@ -15,6 +15,8 @@
 #include "tools/relight/light_field.h"
 #include "tools/relight/original.h"
 
+CS_DESCRIBE(celspan_light_estimate_desc, picture, .colour = {0.18, 0.18, 0.18})
+
 /* ---------------------------------------------------------------- terms of a field */
 
 /* A light field fitted to how bright a picture is, part by part.

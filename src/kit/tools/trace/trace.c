@@ -19,6 +19,8 @@
 #include "tools/trace/result.h"
 #include "tools/trace/text.h"
 
+CS_DESCRIBE(celspan_trace_desc, picture, .colours = 2, .speckle = 2, .smooth = 1)
+
 /* ---------------------------------------------------------------- shapes */
 
 /* Regions as shapes: closed paths, each made of the chains around its region.

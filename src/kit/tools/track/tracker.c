@@ -24,6 +24,8 @@
 #include "tools/track/patch.h"
 #include "tools/track/plane.h"
 
+CS_DESCRIBE(celspan_tracker_desc, region, )
+
 enum { LEAST_REGION = 2 * CS_PATCH_RADIUS, MOST_SIDE = 1 << 16 };
 
 /* the radius is in pixels of the coarsest level */

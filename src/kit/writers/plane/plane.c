@@ -23,6 +23,8 @@
 #include "writers/plane/plane_data.h"
 #include "writers/record/record.h"
 
+CS_DESCRIBE(celspan_plane_desc, height, .depth = 16)
+
 #define BYTES_MOST ((uint64_t)1 << 30) /* of a file */
 
 void *cs_plane_resize(void *user, void *block, size_t old_size, size_t new_size) {

@@ -7,6 +7,8 @@
 #include "writers/plane/plane.h"
 #include "writers/plane/plane_data.h"
 
+CS_DESCRIBE(celspan_plane_view, height, )
+
 struct cs_plane_rows {
   celspan_context *context;
   const celspan_plane *plane;
