@@ -246,5 +246,5 @@ return {
   ["tests/mutate"] = { "spec/mutate" },
   ["tests/bench"] = { "spec/bench" },
   ["tests/faults"] = { "spec/faults", "unit/faults" },
-  ["tests/sandbox"] = { "sandbox/sandbox" },
+  ["tests/kit/sandbox"] = { "sandbox/sandbox" },
 }

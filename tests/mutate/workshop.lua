@@ -124,8 +124,8 @@ end
 function workshop:read_times(changed)
   local is_forgotten = {}
   for _, path in ipairs(changed) do
-    local test = path:match "^%./tests/unit/.*test_([%w_]+)%.c$"
-    local name = test and "unit/" .. test or path:match "^%./tests/([%w_/]+)_spec%.lua$"
+    local test = path:match "^%./tests/%a+/unit/test_([%w_]+)%.c$"
+    local name = test and "unit/" .. test or path:match "^%./tests/.-([%w_]+/[%w_]+)_spec%.lua$"
     local is_read = not (path:find "^%./tests/mutate/" or path:find "%.md$")
     if name then is_forgotten[name] = true elseif is_read then return end
   end

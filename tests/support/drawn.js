@@ -1,5 +1,5 @@
 // Draws scenes in a browser and compares them with celspan's pictures of them: the steps of
-// browser.js for tests/property/browser_spec.lua.
+// browser.js for tests/core/property/browser_spec.lua.
 //
 // The folder $CELSPAN_DRAWN has a list of the scenes' numbers, and for each number N.svg; N.film
 // and perhaps N.read, pictures by celspan; and N.edges, whose alpha is above 0 in pixels that an

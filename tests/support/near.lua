@@ -19,7 +19,7 @@ end
 --- The unit tests that are only linked with a folder of src/ and the folders below it.
 function near.units(root)
   local units = {}
-  local listed = system.read(root .. "/tests/unit/meson.build")
+  local listed = system.output(("cat '%s'/tests/*/meson.build"):format(root))
   for name, folder in listed:gmatch "%['([%w_]+)', '([%w_/]+)'%]" do
     units["unit/" .. name] = folder:match "[^/]*$"
   end
@@ -28,10 +28,10 @@ end
 
 --- The test whose source is a file of tests/, or nil.
 function near.test_of(path)
-  local unit = path:match "^tests/unit/.*test_([%w_]+)%.c$"
+  local unit = path:match "^tests/%a+/unit/test_([%w_]+)%.c$"
   local script, corpus = path:match "^tests/fuzz/fuzz_([%w_]+)%.c$",
     path:match "^tests/fuzz/corpus/([%w_-]+)"
-  return unit and "unit/" .. unit or path:match "^tests/(.*)_spec%.lua$"
+  return unit and "unit/" .. unit or path:match "^tests/.-([%w_]+/[%w_]+)_spec%.lua$"
     or script and "unit/fuzz-" .. script or corpus and "unit/fuzz-" .. corpus
 end
 

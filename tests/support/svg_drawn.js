@@ -1,5 +1,5 @@
 // Draws an SVG drawing in a browser and in resvg, and compares both, and what librsvg and Poppler
-// have drawn, with the frame: the steps of browser.js for tests/spec/svg_drawn_spec.lua, after CASE:
+// have drawn, with the frame: the steps of browser.js for tests/desk/spec/svg_drawn_spec.lua, after CASE:
 //
 //   { folder, width, height, fine, resvg }   resvg: the file of its package
 //

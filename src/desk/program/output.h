@@ -11,8 +11,8 @@
 #pragma once
 
 #include "celspan/plane.h"
-#include "writers/apart/apart.h"
 #include "program/request.h"
+#include "writers/apart/apart.h"
 
 struct cs_outlet;
 

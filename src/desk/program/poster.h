@@ -6,8 +6,8 @@
  */
 #pragma once
 
-#include "video/format.h"
 #include "program/script.h"
+#include "video/format.h"
 
 /* The pixels for an attached picture: RGBA of 8 bits, of the frame's size, owned by the caller;
  * NULL: the file has none. frame: the view. OK, or reported. */

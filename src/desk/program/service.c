@@ -2,9 +2,9 @@
 
 #include <string.h>
 
-#include "process/interrupt.h"
 #include "lua/bind/host.h"
 #include "lua/sandbox/library.h"
+#include "process/interrupt.h"
 #include "program/confine.h"
 #include "program/script.h"
 #include "program/verb_text.h"

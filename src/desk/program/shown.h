@@ -3,8 +3,8 @@
  * a Photoshop document, the merged picture is used, and a note says so. */
 #pragma once
 
-#include "writers/still/still.h"
 #include "program/request.h"
+#include "writers/still/still.h"
 
 /* Whether a file is shown as the frame of its film: a drawing, or a painting that does not contain
  * a merged picture. */

@@ -5,8 +5,8 @@
  */
 #pragma once
 
-#include "video/video.h"
 #include "program/request.h"
+#include "video/video.h"
 
 /* Sets the tags of the options, which have the coding of the request. */
 cs_exit cs_video_colours_set(const cs_request *request, cs_video_options *options);

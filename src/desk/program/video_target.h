@@ -5,8 +5,8 @@
  */
 #pragma once
 
-#include "video/video.h"
 #include "program/script.h"
+#include "video/video.h"
 
 /* Whether ffmpeg makes such a video. */
 bool cs_video_target_runs_ffmpeg(const cs_request *request);

@@ -3,8 +3,8 @@
  */
 #pragma once
 
-#include "writers/parcels/plot.h"
 #include "program/output.h"
+#include "writers/parcels/plot.h"
 
 /* ---- with layers, or mattes: of --layers and --cryptomatte */
 

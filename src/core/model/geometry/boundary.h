@@ -20,7 +20,7 @@
  *   - Pieces left of `left` or right of `right` are replaced by vertical lines there; what lies
  *     wholly above `top` or below `bottom` is dropped.
  *   - Chords and arcs deviate from the curve by at most about CS_BOUNDARY_TOLERANCE pixels and keep
- *     the area left of it: in any one pixel to less than 2/255 (tests/unit/test_polyline.c).
+ *     the area left of it: in any one pixel to less than 2/255 (tests/core/unit/test_polyline.c).
  */
 #pragma once
 

@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "lua/module/core.h"
 #include "common/difference.h"
+#include "lua/module/core.h"
 
 typedef struct tally {
   lua_Integer count;

@@ -8,11 +8,11 @@
 #include <math.h>
 
 #include "celspan/plane.h"
-#include "writers/parcels/under.h"
 #include "lua/bind/host.h"
 #include "lua/bind/put.h"
 #include "lua/bind/userdata.h"
 #include "lua/module/core.h"
+#include "writers/parcels/under.h"
 
 /* The cosine of the angle between the axes of a radial gradient that counts as a right angle. */
 #define SQUARE 1e-4

@@ -2,7 +2,6 @@
 #include <string.h>
 
 #include "celspan/plane.h"
-#include "writers/plane/plane.h"
 #include "lua/bind/caller.h"
 #include "lua/bind/files.h"
 #include "lua/bind/host.h"
@@ -11,6 +10,7 @@
 #include "lua/module/core.h"
 #include "lua/module/pixels.h"
 #include "lua/module/subject.h"
+#include "writers/plane/plane.h"
 
 static int finish_plane(lua_State *L) {
   celspan_plane **plane = luaL_checkudata(L, 1, CS_CORE_PLANE);

@@ -10,8 +10,8 @@
 
 #include <avif/avif.h>
 
-#include "writers/exr/rate.h"
 #include "plugins/moving/moving.h"
+#include "writers/exr/rate.h"
 
 #define SPEED 6         /* of 0 to 10: slower ones make files a few per cent smaller */
 #define LEAST_THREADS 2 /* one alone makes other bytes */

@@ -11,9 +11,9 @@
 #include <algorithm>
 #include <memory>
 
-#include "writers/exr/rate.h"
 #include "plugins/moving/moving.h"
 #include "plugins/oiio/shared.h"
+#include "writers/exr/rate.h"
 
 using OIIO::ImageOutput;
 using OIIO::ImageSpec;

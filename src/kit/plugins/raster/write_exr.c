@@ -1,8 +1,8 @@
 /* OpenEXR: half or float. */
 #include <stdlib.h>
 
-#include "writers/exr/exr.h"
 #include "plugins/raster/write.h"
+#include "writers/exr/exr.h"
 
 typedef struct writing {
   cs_exr exr;

@@ -2,8 +2,8 @@
 
 #include <string.h>
 
-#include "common/address.h"
 #include "celspan/svg.h"
+#include "common/address.h"
 #include "readers/svg/shapes.h"
 
 /* The contents of an image, before it is put in its place. */

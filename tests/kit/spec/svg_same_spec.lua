@@ -1,6 +1,6 @@
 -- Drawings from SVG that are written in two ways and are the same to the bit; what draws nothing;
 -- what is left out and reported; and what is refused. One list, with a line for each case, as long
--- as there are ways of writing the same. tests/spec/svg_spec.lua says what a drawing shows.
+-- as there are ways of writing the same. tests/kit/spec/svg_spec.lua says what a drawing shows.
 local celspan = require "celspan"
 local svg = require "celspan.svg"
 local present = require "tests.support.present"

@@ -10,12 +10,12 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "writers/tiles/log.h"
-#include "writers/tiles/render.h"
 #include "output/sinks/pixels.h"
 #include "output/sinks/sink.h"
 #include "tests/support/random.h"
 #include "tests/support/scene.h"
+#include "writers/tiles/log.h"
+#include "writers/tiles/render.h"
 
 enum {
   PYRAMIDS = 120, /* 40 sizes in three layouts */

@@ -226,7 +226,7 @@ describe("a module in Lua", function()
       local good, result = pcall(require, "celspan." .. name)
       assert.are.equal(is_public[name] or false, good, name)
       if not good then
-        assert.is_truthy(result:find(("tests/spec/meta_spec.lua:%%d+: module 'celspan.%s' is "
+        assert.is_truthy(result:find(("tests/kit/spec/meta_spec.lua:%%d+: module 'celspan.%s' is "
           .. "private: only celspan's own modules can require it"):format(name)), result)
       end
     end

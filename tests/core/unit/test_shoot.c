@@ -4,8 +4,8 @@
 #include "frames/film/shoot.h"
 
 #include "base/context.h"
-#include "video/slots.h"
 #include "tests/support/scene.h"
+#include "video/slots.h"
 
 enum { FRAMES = 12, SCENES = 5, NOWHERE = -1 };
 

@@ -4,12 +4,12 @@
 #include <math.h>
 
 #include "celspan/plane.h"
+#include "tests/support/frame_rows.h"
+#include "tests/support/memory.h"
 #include "writers/parcels/boxes.h"
 #include "writers/parcels/making.h"
 #include "writers/parcels/plot.h"
 #include "writers/parcels/under.h"
-#include "tests/support/frame_rows.h"
-#include "tests/support/memory.h"
 
 enum { SIDE = 1000 };
 

@@ -82,7 +82,7 @@ describe("the sandbox", function()
   describe("agrees with Lua", function()
     for seed = 1, 2 do
       it("in the functions that it replaces, with random arguments " .. seed, function()
-        local command = ("'%s' info tests/sandbox/agree.lua --limit print=0 %%s -- %d")
+        local command = ("'%s' info tests/kit/sandbox/agree.lua --limit print=0 %%s -- %d")
           :format(workbench.absolute, seed)
         local code, _, own = bench:shell(command:format(""))
         assert.equal(0, code, own:sub(-400))
@@ -396,7 +396,7 @@ describe("the sandbox", function()
 
   for _, way in ipairs(WAYS) do
     describe("of " .. way.name .. " withstands", function()
-      local escapes = require "tests.sandbox.escapes"
+      local escapes = require "tests.kit.sandbox.escapes"
 
       for _, one in ipairs(escapes) do
         it(one[1], function()
@@ -411,7 +411,7 @@ describe("the sandbox", function()
     end)
 
     describe("of " .. way.name .. " ends", function()
-      local hangs = require "tests.sandbox.hangs"
+      local hangs = require "tests.kit.sandbox.hangs"
 
       for _, one in ipairs(hangs) do
         it(one[1] .. ": " .. CODES[one[3]], function()

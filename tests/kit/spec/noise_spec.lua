@@ -1,5 +1,5 @@
 -- Noise as a texture: frames beside the probe, its fields, and grain of films and cels. Closed
--- forms are in tests/unit/test_noise.c.
+-- forms are in tests/core/unit/test_noise.c.
 local celspan = require "celspan"
 local images = require "tests.support.images"
 

@@ -1,7 +1,7 @@
 -- The same scene gives the same bits: with any number of workers, in any order of rows, in crops,
 -- in any order of frames, and when rendered again.
 --
--- Strips and rows on demand are tested from C: tests/unit/test_render.c.
+-- Strips and rows on demand are tested from C: tests/core/unit/test_render.c.
 local celspan = require "celspan"
 local cases = require "tests.support.cases"
 local prng = require "tests.support.prng"

@@ -5,10 +5,10 @@
 #include <math.h>
 
 #include "celspan/plane.h"
-#include "writers/plane/plane.h"
 #include "tests/support/frame_rows.h"
 #include "tests/support/memory.h"
 #include "tests/support/random.h"
+#include "writers/plane/plane.h"
 
 #define WIDTH 90
 #define HEIGHT 60

@@ -1,6 +1,6 @@
 -- Layered paintings as written by programs of every kind: large documents and archives, names in
 -- every script, the names of blend modes, additional data of Photoshop, Krita and others; and the
--- places where such a file may be damaged. tests/spec/layers_spec.lua compares the formats with
+-- places where such a file may be damaged. tests/kit/spec/layers_spec.lua compares the formats with
 -- each other. One list of cases, as long as the list of those programs.
 local celspan = require "celspan"
 local layers = require "celspan.layers"

@@ -1,4 +1,4 @@
--- Following a region through files, and the queries of a track. tests/unit/test_track.c checks the
+-- Following a region through files, and the queries of a track. tests/kit/unit/test_track.c checks the
 -- accuracy.
 local celspan = require "celspan"
 local present = require "tests.support.present"

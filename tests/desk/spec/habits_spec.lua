@@ -58,7 +58,7 @@ end }]])
       local rostrum = multiplane { film = { 64, 36 }, focl = 800 }
       return rostrum
     end)
-    assert.is_truthy(message:find "^tests/spec/habits_spec.lua:%d+: multiplane: unknown", message)
+    assert.is_truthy(message:find "^tests/desk/spec/habits_spec.lua:%d+: multiplane: unknown", message)
   end)
 end)
 
@@ -260,7 +260,7 @@ describe("art:show", function()
     } do
       local message = raised.message(function() art:show(choices) end)
       assert.is_truthy(message:find(words, 1, true), message)
-      assert.is_truthy(message:find "^tests/spec/habits_spec.lua:", message)
+      assert.is_truthy(message:find "^tests/desk/spec/habits_spec.lua:", message)
     end
   end)
 end)

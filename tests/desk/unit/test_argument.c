@@ -2,9 +2,9 @@
  * unchanged when a value is refused. */
 #include <stdlib.h>
 
-#include "writers/tiles/pyramid.h"
 #include "program/argument.h"
 #include "tests/support/check.h"
+#include "writers/tiles/pyramid.h"
 
 enum { FIELD_SIZE = 1024 };
 

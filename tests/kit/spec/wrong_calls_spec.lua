@@ -1,5 +1,5 @@
 -- Wrong calls, a line each: every one raises an error at the call that says what it got.
--- tests/spec/errors_spec.lua has the complete sentences.
+-- tests/kit/spec/errors_spec.lua has the complete sentences.
 local celspan = require "celspan"
 local present = require "tests.support.present"
 local raised = require "tests.support.raised"
