@@ -3,9 +3,10 @@
 --   LUA_PATH='?.lua;;' LUA_CPATH=build/?.so \
 --     lua5.4 tests/bench/trace_edges.lua [LAST [FIRST]]
 --
--- The drawings are numbers FIRST to LAST of those that tests/core/property/trace_spec.lua tries, 1 to 30
--- by default; each is rasterised with antialiasing, and without, so that each pixel has one colour
--- or the other. Printed are the largest error of any edge of a drawing, in its pixels: how many
+-- The drawings are numbers FIRST to LAST of those that tests/core/property/trace_spec.lua tries, 1
+-- to 30 by default; each is rasterised with antialiasing, and without, so that each pixel has one
+-- colour or the other. Printed are the largest error of any edge of a drawing, in its pixels: how
+-- many
 -- drawings are within a quarter and within half a pixel, the median and the worst; and how many
 -- pixels of all drawings change when drawing and tracing are drawn without antialiasing. EACH=1
 -- prints every drawing.

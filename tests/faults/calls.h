@@ -7,8 +7,8 @@
  *   in a whole program   a library that is loaded before it (LD_PRELOAD) puts them before every
  *                        call from one library into another; its plan is in the environment
  *
- * So the tested code is the code that is shipped. tests/desk/spec/faults_spec.lua checks that no call is
- * missing here.
+ * So the tested code is the code that is shipped. tests/desk/spec/faults_spec.lua checks that no
+ * call is missing here.
  *
  *   CALL(type, name, failure, (parameters), (arguments))     failure: the value returned then
  *   DATA(type, name, (parameters), (arguments), size)        -1, and may do less than `size`

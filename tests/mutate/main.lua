@@ -13,8 +13,9 @@ local mutants = require "tests.mutate.mutants"
 local near_to = require "tests.support.near"
 local workshop = require "tests.mutate.workshop"
 
-local DEFAULT = { "src/core/engine/sweep", "src/core/engine/compose", "src/core/engine/paint", "src/core/engine/kernel",
-  "src/core/engine/area", "src/core/engine/row", "src/core/engine/defocus" }
+local DEFAULT = { "src/core/engine/sweep", "src/core/engine/compose", "src/core/engine/paint",
+  "src/core/engine/kernel", "src/core/engine/area", "src/core/engine/row",
+  "src/core/engine/defocus" }
 local BATCH = 6 -- tests that are linked together
 
 local function fail(format, ...)

@@ -1,5 +1,5 @@
---- Lines measured by their length (src/kit/lua/nouns/ruler.c): where a place along a path is, and which
---- way it goes there.
+--- Lines measured by their length (src/kit/lua/nouns/ruler.c): where a place along a path is, and
+--- which way it goes there.
 local core = require "celspan.core"
 local fields = require "celspan.fields"
 local pathdata = require "celspan.pathdata"

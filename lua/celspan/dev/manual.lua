@@ -1,7 +1,7 @@
 --- The manual of the Lua interface: the annotations for editors, celspan.d.lua, and the pages
---- of `celspan help lua`. The fields of nouns come from their rows in C (src/kit/lua/nouns), the rest
---- from celspan.annotations and from the annotations in the modules. One file, because annotations
---- and pages show the same rows.
+--- of `celspan help lua`. The fields of nouns come from their rows in C (src/kit/lua/nouns), the
+--- rest from celspan.annotations and from the annotations in the modules. One file, because
+--- annotations and pages show the same rows.
 local core = require "celspan.core"
 
 local manual = {}

@@ -3,9 +3,10 @@
 --   parameters{...} --> declared: { { name =, kind =, default =, ... }, ... }, sorted by name
 --   --set, --set-from, celspan_lua_set --> settings --> checked against it --> values
 --
--- The settings are a table in the registry of the Lua state (src/kit/lua/module/parameters.h). A host
--- fills it before it runs the script, with { source =, name =, text = } or { source =, json = } for
--- each value or file; `source` is the beginning of messages. Two fields are answers to the host:
+-- The settings are a table in the registry of the Lua state (src/kit/lua/module/parameters.h). A
+-- host fills it before it runs the script, with { source =, name =, text = } or { source =, json =
+-- } for each value or file; `source` is the beginning of messages. Two fields are answers to the
+-- host:
 -- `declared`, and `refused`, the sentence about a wrong setting.
 local celspan = require "celspan"
 local core = require "celspan.core"

@@ -1,6 +1,6 @@
 --- How loud a sound is in bands of frequency at a moment, and its beats.
 --
---   levels: a byte for each of 96 bands, each hundredth of a second (src/kit/plugins/sound/spectrum.h)
+--   levels: a byte for each of 96 bands, each hundredth of a second (plugins/sound/spectrum.h)
 --   levels --added up--> bands as wide as a drawing needs them
 --   levels --what becomes louder--> onsets --the time after which they return--> beats
 --

@@ -9,3 +9,4 @@
 #include "frames/film/film.h"
 #include "frames/film/sequence.h"
 #include "frames/film/shoot.h"
+#include "frames/film/slots.h"

@@ -16,6 +16,7 @@
 #include "output/sinks/file.h"
 #include "output/sinks/picture_file.h"
 #include "output/sinks/pixels.h"
+#include "output/sinks/planes_sink.h"
 #include "output/sinks/shares.h"
 #include "output/sinks/sink.h"
 #include "output/sinks/strip.h"

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "celspan/celspan.h"
-#include "video/slots.h"
+#include "inside/films.h"
 
 /* Makes a frame, and writes its rows while they are made. Errors: those of rendering; OUTPUT. */
 celspan_status cs_raw_frame_print(celspan_context *context, const celspan_frame_desc *frame,

@@ -6,7 +6,6 @@
 
 #include "inside/files.h"
 #include "inside/sinks.h"
-#include "video/planes_sink.h"
 
 /* ---------------------------------------------------------------- opening */
 

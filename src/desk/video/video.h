@@ -20,7 +20,6 @@
 #include "inside/sinks.h"
 #include "video/encoder.h"
 #include "video/format.h"
-#include "video/slots.h"
 
 typedef struct cs_video_desc {
   const char *path;

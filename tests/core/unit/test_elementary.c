@@ -10,7 +10,7 @@
 
 #include "base/hash.h"
 #include "base/number.h"
-#include "common/functions.h"
+#include "base/functions.h"
 #include "tests/support/check.h"
 #include "tests/support/random.h"
 

@@ -14,7 +14,7 @@
 #include "tests/support/picture.h"
 #include "tests/support/random.h"
 #include "tests/support/scene.h"
-#include "video/planes_sink.h"
+#include "output/sinks/planes_sink.h"
 
 enum { WIDTH = 96, HEIGHT = 160, CELS = 6, SHAPES = 70, PIXELS = WIDTH * HEIGHT };
 

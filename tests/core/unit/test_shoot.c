@@ -5,7 +5,7 @@
 
 #include "base/context.h"
 #include "tests/support/scene.h"
-#include "video/slots.h"
+#include "frames/film/slots.h"
 
 enum { FRAMES = 12, SCENES = 5, NOWHERE = -1 };
 

@@ -58,7 +58,7 @@ end }]])
       local rostrum = multiplane { film = { 64, 36 }, focl = 800 }
       return rostrum
     end)
-    assert.is_truthy(message:find "^tests/desk/spec/habits_spec.lua:%d+: multiplane: unknown", message)
+    assert.matches("^tests/desk/spec/habits_spec.lua:%d+: multiplane: unknown", message)
   end)
 end)
 

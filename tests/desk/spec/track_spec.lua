@@ -1,5 +1,5 @@
--- Following a region through files, and the queries of a track. tests/kit/unit/test_track.c checks the
--- accuracy.
+-- Following a region through files, and the queries of a track. tests/kit/unit/test_track.c checks
+-- the accuracy.
 local celspan = require "celspan"
 local present = require "tests.support.present"
 local raised = require "tests.support.raised"

@@ -1,6 +1,6 @@
 /* Taking light off pictures, through the public header: the remaining S and T of pictures for which
- * they are known, fields of light, refusals, and failing allocations. tests/desk/spec/relight_spec.lua
- * has the pictures as rendered. One file, because all tests share those pictures. */
+ * they are known, fields of light, refusals, and failing allocations. The rendered pictures are in
+ * tests/desk/spec/relight_spec.lua. One file, because all tests share those pictures. */
 #include <stdlib.h>
 
 #include "celspan/celspan.h"

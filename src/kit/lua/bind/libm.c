@@ -1,6 +1,5 @@
 /* The program's Lua uses the engine's functions, also for the operator ^, so that scripts give the
  * same bits everywhere: the linker replaces the functions of the C library by these. */
-#include "common/functions.h"
 #include "inside/elementary.h"
 
 #define WRAP(name, function)                                                                       \

@@ -3,7 +3,6 @@
 #include <lauxlib.h>
 #include <string.h>
 
-#include "common/functions.h"
 #include "inside/elementary.h"
 #include "lua/sandbox/library.h"
 

@@ -2,7 +2,6 @@
 
 #include <string.h>
 
-#include "common/functions.h"
 #include "inside/elementary.h"
 #include "plugins/sound/sound.h"
 

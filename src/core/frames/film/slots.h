@@ -7,7 +7,7 @@
  */
 #pragma once
 
-#include "inside/context.h"
+#include "base/context.h"
 
 typedef struct cs_slots {
   unsigned char **frames; /* buffers of the same size, which may be exchanged for others; owned */

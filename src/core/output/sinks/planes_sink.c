@@ -1,6 +1,9 @@
-#include "video/planes_sink.h"
+#include "output/sinks/planes_sink.h"
 
-#include "inside/sinks.h"
+#include "output/sinks/pixels.h"
+#include "output/sinks/shares.h"
+#include "output/sinks/sink.h"
+#include "output/sinks/ycbcr.h"
 
 enum { SHARE_ROWS = 32 }; /* an even number: two rows give one row of 4:2:0 */
 

@@ -1,9 +1,9 @@
-#include "common/functions.h"
+#include "base/functions.h"
 
 #include <math.h>
 #include <stdbool.h>
 
-#include "inside/elementary.h"
+#include "base/elementary.h"
 
 double cs_function_sin(double x) {
   double sine, cosine;

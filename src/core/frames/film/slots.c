@@ -1,6 +1,6 @@
-#include "video/slots.h"
+#include "frames/film/slots.h"
 
-#include "inside/frames.h"
+#include "frames/render/frame.h"
 
 /* Slots beyond one for each worker: for a frame that is given on, and one that is ready. */
 enum { AHEAD = 2 };

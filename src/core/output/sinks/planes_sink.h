@@ -8,7 +8,7 @@
  */
 #pragma once
 
-#include "inside/sinks.h"
+#include "output/sinks/coder.h"
 
 typedef struct cs_planes {
   cs_coder coder;       /* of 8 bits */
