@@ -97,7 +97,7 @@ drawings, or `house`, under a pan and a zoom, with `skaters` and `mosquito` in f
 sheets` shows `emoji` and `twemoji` in front of `clipart`. The others build their paths once and
 fill them in each frame, into a whole picture; celspan writes a row that is reused, or a *whole
 picture*. *With its maps*: shown for the first time, with the making of its
-[maps](how-it-works.md#maps). *Differ by*: the others' pictures from celspan's, at most, in means of
+[maps](how-rows.md#maps). *Differ by*: the others' pictures from celspan's, at most, in means of
 64 x 64 cells.
 ]], names = { "film", "side", "celspan", "whole picture", "with its maps", "Blend2D", "Skia", "AGG",
               "Qt", "Cairo", "ahead of Blend2D", "ahead of the best peer", "differ by" } }

@@ -79,7 +79,7 @@ function report.times(page)
   end
   page:section { title = "### Drawings, in time", fixed = 2, lines = lines, text = [[
 The times of the same drawings. *Later frame*: in a film that has shown the drawing before, which is
-then drawn from its [map](how-it-works.md#maps).
+then drawn from its [map](how-rows.md#maps).
 ]], names = page.names({ "drawing", "side" }, columns) }
 end
 

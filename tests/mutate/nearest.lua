@@ -10,6 +10,8 @@ return {
   compose = { "unit/blend", "unit/over_table", "unit/operands", "unit/procedures",
     "unit/probe", "spec/blend", "unit/light", "unit/through", "golden/golden",
     "unit/torture" },
+  inside = { "unit/description" },
+  common = { "spec/svg", "spec/text", "spec/raster", "spec/sound" },
   area = { "unit/wide", "unit/direct", "unit/intersections", "unit/again", "unit/kernels",
     "unit/light", "unit/long_rows", "property/area", "golden/golden", "unit/torture" },
   row = { "unit/flat_rows", "unit/procedures", "unit/kernels", "unit/picture_rows", "unit/light",

@@ -5,7 +5,7 @@ local c_source = require "tests.support.rooms.c_source"
 local tree = {}
 tree.__index = tree
 
---- The folder of headers through which the other houses see the core; it stands above the core.
+--- The folder of headers through which the other houses see the core; it comes after the core.
 tree.DOOR = "core/inside"
 
 local BUILT_APART = { "kit/plugins/moving", "kit/plugins/cairo", "kit/plugins/ocio",

@@ -22,7 +22,7 @@
  * shapes that suit, unless most of their area varies; the others are swept. Otherwise the whole
  * exposure is swept.
  *
- * docs/how-it-works.md has the measurements behind these numbers.
+ * docs/how-rows.md has the measurements behind these numbers.
  *
  * An exposure may have maps where its antialiasing is "area", no side of the frame is above
  * CS_WAYS_SIDE pixels, and it has at most CS_MAP_DRAWINGS cels, no procedures, no grade of the

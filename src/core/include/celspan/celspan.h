@@ -1479,7 +1479,7 @@ typedef struct celspan_frame_desc {
    * space. */
   celspan_space space;
   /* Whether its drawings are likely to return in other frames, as those of a film do: the maps
-   * that it makes of them (docs/how-it-works.md) may then take the place of older ones in the
+   * that it makes of them (docs/how-rows.md) may then take the place of older ones in the
    * context; otherwise they are kept only where there is room. And rows that are the same as in an
    * earlier frame are not made again. It changes no pixel. */
   bool repeats;
