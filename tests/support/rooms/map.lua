@@ -67,23 +67,60 @@ local function put_wrapped(label, text, width)
   for i = 2, #lines do print((" "):rep(#label) .. lines[i]) end
 end
 
+--- The folders of src/ with their figures; of one house alone, if `house` is given.
+local function put_folders(tree, root, house)
+  print(("%-22s %5s %6s"):format("folder", "units", "lines"))
+  for _, folder in ipairs(folders(tree)) do
+    local is_house = not folder:find "/"
+    local units, lines = units_of(tree, folder)
+    local name = is_house and folder .. "/" or "  " .. folder:match "/(.*)" .. "/"
+    local figures = units > 0 and ("%5d %6d"):format(units, lines) or (" "):rep(12)
+    if not house or folder:match "^[^/]+" == house then
+      if is_house then print() end
+      put_wrapped(("%-22s %s  "):format(name, figures), sentence_of(root, "src/" .. folder) or "",
+        63)
+    end
+  end
+end
+
+--- Where the lines are that are shipped: sources of all languages, without tests and without what
+--- is generated.
+local SHIPPED = {
+  { "core", "src/core subprojects/spanfile/include subprojects/spanfile/src" },
+  { "kit", "src/kit subprojects/planefile/include subprojects/planefile/src "
+    .. "subprojects/planefile/wasm" },
+  { "desk", "src/desk" },
+  { "lua/celspan", "lua" },
+}
+
+local function put_lines(root)
+  print "Shipped lines (.c .h .cpp .lua .js .html .css, without tests):\n"
+  local sum = 0
+  for _, place in ipairs(SHIPPED) do
+    local find = "cd '%s' && find %s -name '*.[ch]' -o -name '*.cpp' -o -name '*.lua' "
+      .. "-o -name '*.js' -o -name '*.html' -o -name '*.css'"
+    local pipe = assert(io.popen(("{ %s; } | xargs cat | wc -l"):format(
+      find:format(root, place[2]))))
+    local lines = pipe:read "n"
+    pipe:close()
+    sum = sum + lines
+    print(("  %-12s %7d"):format(place[1], lines))
+  end
+  print(("  %-12s %7d"):format("all", sum))
+end
+
 function map.put(tree, root)
   print("Folders of src/ from the bottom up; each includes its own files and earlier "
     .. "folders only.\n")
-  print(("%-18s %5s %6s"):format("folder", "units", "lines"))
-  for _, folder in ipairs(folders(tree)) do
-    local is_wing = not folder:find "/"
-    local units, lines = units_of(tree, folder)
-    local name = is_wing and folder .. "/" or "  " .. folder:match "/(.*)" .. "/"
-    local figures = units > 0 and ("%5d %6d"):format(units, lines) or (" "):rep(12)
-    if is_wing then print() end
-    put_wrapped(("%-18s %s  "):format(name, figures), sentence_of(root, "src/" .. folder) or "", 67)
-  end
+  put_folders(tree, root)
   print()
   for _, folder in ipairs(lua_folders(root)) do
     put_wrapped(("%-31s  "):format(folder .. "/"), sentence_of(root, folder) or "", 67)
   end
-  print "\n./run map FOLDER, such as `./run map svg`, lists the units of a folder."
+  print()
+  put_lines(root)
+  print("\n./run map FOLDER lists the folders of a house (core, kit, desk), or the units of a "
+    .. "folder\nsuch as svg.")
 end
 
 -- ---------------------------------------------------------------- units
@@ -99,20 +136,27 @@ local function find_folder(tree, root, word)
   end
 end
 
---- Prints the units of folders. Returns false, after a message, if a word means no folder.
+local function put_units_of(folder, list)
+  print(folder:gsub("^%./", "") .. "/\n")
+  for _, unit in ipairs(list) do
+    put_wrapped(("%-22s %5d  "):format(unit.name, unit.lines), unit.sentence or "", 70)
+  end
+end
+
+--- Prints the folders of houses, and the units of folders. Returns false, after a message, if a word means no folder.
 function map.put_units(tree, root, words)
   for _, word in ipairs(words) do
+    local is_house = word == "core" or word == "kit" or word == "desk"
     local folder = find_folder(tree, root, word)
     local list = folder and units_of_folder(folder) or {}
-    if #list == 0 then
+    if is_house then
+      put_folders(tree, root, word)
+    elseif #list == 0 then
       io.stderr:write(("run: map: '%s' is not a folder with sources; `./run map` lists them\n")
         :format(word))
       return false
     end
-    print(folder:gsub("^%./", "") .. "/\n")
-    for _, unit in ipairs(list) do
-      put_wrapped(("%-22s %5d  "):format(unit.name, unit.lines), unit.sentence or "", 70)
-    end
+    if not is_house then put_units_of(folder, list) end
   end
   return true
 end
