@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "readers/svg/colours.h"
+#include "readers/svg/words/colours.h"
 
 static bool is_hexadecimal(const char *text) {
   size_t length = strlen(text);

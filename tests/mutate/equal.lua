@@ -112,7 +112,7 @@ return {
       "`zip->members[place].name, start` to `start, zip->members[place].name`",
       "are equal in either order" },
   },
-  ["src/kit/readers/svg/gradients.c"] = {
+  ["src/kit/readers/svg/draw/gradients.c"] = {
     { "if (stop.at < 0 && i + 1 < g->stops.count) {", "`0` to `1`",
       "mixing takes a share below 0 for 0" },
     { "if (stop.at < 0 && i + 1 < g->stops.count) {", "`1` to `0`",

@@ -20,14 +20,14 @@
 #include "plugins/isolate/zygote.h"
 #include "process/interrupt.h"
 #include "program/commit.h"
-#include "program/confine.h"
-#include "program/log.h"
-#include "program/lua_verb.h"
-#include "program/outputs.h"
-#include "program/progress.h"
-#include "program/spaces.h"
-#include "program/text_file.h"
-#include "program/verbs.h"
+#include "program/film/confine.h"
+#include "program/film/spaces.h"
+#include "program/options/progress.h"
+#include "program/options/verbs.h"
+#include "program/outputs/outputs.h"
+#include "program/report/log.h"
+#include "program/report/text_file.h"
+#include "program/services/lua_verb.h"
 
 enum { VERBS_MOST = 32 };
 

@@ -13,11 +13,11 @@
 #include "inside/films.h"
 #include "inside/sinks.h"
 #include "plugins/sound/wave_file.h"
-#include "program/outputs.h"
-#include "program/progress.h"
-#include "program/soundtrack.h"
-#include "program/verbs.h"
-#include "program/whole.h"
+#include "program/film/soundtrack.h"
+#include "program/options/progress.h"
+#include "program/options/verbs.h"
+#include "program/outputs/outputs.h"
+#include "program/outputs/whole.h"
 
 #define PLACE "{name}" /* of the name of a stem */
 

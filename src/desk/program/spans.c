@@ -5,9 +5,9 @@
 
 #include "inside/clock.h"
 #include "inside/frames.h"
-#include "program/script.h"
-#include "program/shown.h"
-#include "program/verbs.h"
+#include "program/film/script.h"
+#include "program/film/shown.h"
+#include "program/options/verbs.h"
 
 static void print_colour(const celspan_span *span, int32_t x) {
   float rgba[4];

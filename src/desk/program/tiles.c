@@ -11,11 +11,11 @@
 
 #include "inside/scene.h"
 #include "inside/sinks.h"
-#include "program/confine.h"
-#include "program/progress.h"
-#include "program/script.h"
-#include "program/shown.h"
-#include "program/verbs.h"
+#include "program/film/confine.h"
+#include "program/film/script.h"
+#include "program/film/shown.h"
+#include "program/options/progress.h"
+#include "program/options/verbs.h"
 #include "writers/tiles/page.h"
 #include "writers/tiles/render.h"
 

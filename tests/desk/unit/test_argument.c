@@ -2,7 +2,7 @@
  * unchanged when a value is refused. */
 #include <stdlib.h>
 
-#include "program/argument.h"
+#include "program/options/argument.h"
 #include "tests/support/check.h"
 #include "writers/tiles/pyramid.h"
 

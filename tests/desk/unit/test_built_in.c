@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "program/verb_text.h"
+#include "program/report/verb_text.h"
 #include "tests/support/check.h"
 
 extern const cs_built_in cs_module_texts[];

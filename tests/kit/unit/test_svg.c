@@ -2,8 +2,8 @@
  * fail. */
 #include "celspan/celspan.h"
 #include "celspan/svg.h"
-#include "readers/svg/art.h"
-#include "readers/svg/colours.h"
+#include "readers/svg/document/art.h"
+#include "readers/svg/words/colours.h"
 #include "readers/svg/read.h"
 #include "tests/support/check.h"
 #include "tests/support/memory.h"

@@ -143,7 +143,8 @@ local function put_units_of(folder, list)
   end
 end
 
---- Prints the folders of houses, and the units of folders. Returns false, after a message, if a word means no folder.
+--- Prints the folders of houses, and the units of folders. Returns false, after a message, if a
+--- word means no folder.
 function map.put_units(tree, root, words)
   for _, word in ipairs(words) do
     local is_house = word == "core" or word == "kit" or word == "desk"

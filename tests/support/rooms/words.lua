@@ -34,7 +34,7 @@ words.list = {
                "tools/trace/colours" } },
   { word = "level", means = "a picture halved that many times; how loud a sound is",
     places = { "model/pictures/", "engine/sample/", "tools/track/", "writers/tiles/",
-               "program/tiles", "program/request", "program/argument", "model/scene/",
+               "program/tiles", "program/options/", "model/scene/",
                "plugins/sound/spectrum" } },
   { word = "slab", means = "a range of heights inside a row", places = { "engine/area/" } },
   { word = "segment", means = "a straight or parabolic piece of a boundary, or of a deflate stream",
@@ -87,7 +87,7 @@ words.list = {
   { word = "gather", means = "collecting the layers of a cell that contribute",
     places = { "engine/compose/" } },
   { word = "trace", means = "a picture turned into shapes",
-    places = { "tools/trace/", "lua/module/tracing", "program/trace", "program/request" } },
+    places = { "tools/trace/", "lua/module/tracing", "program/trace", "program/options/request" } },
   { word = "door", say = "check" },
 }
 

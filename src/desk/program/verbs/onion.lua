@@ -16,18 +16,18 @@
 --   bird      a   a   b   b   c   c    first skins at 37 and at 38: a, c
 --   cloud     1   2   3   4   5   6                       at 37: 2, 4
 --
--- Only pixels that differ from the frame's drawing are shown (program/change.c). A skin is made at
--- the size of the output, and tinted twice: its colours under a light of the tint, and half over
--- them its outline filled with the tint, so that black lines show too.
+-- Only pixels that differ from the frame's drawing are shown (program/film/change.c). A skin is
+-- made at the size of the output, and tinted twice: its colours under a light of the tint, and half
+-- over them its outline filled with the tint, so that black lines show too.
 --
 -- A camera that moves shows nothing: the camera of the frame sees the other frames too, also the
 -- camera of celspan.multiplane. Where a script itself shifts and scales the rearmost cel and some
 -- others, cels that are only shifted and scaled count as held. With the name of a cel, all others
 -- are left out.
 --
--- For celspan watch each cel has its label (program/stage_tree.c) as its name, and `labels` chooses
--- the cels that skins are made of, and then those that are hidden: "\nnell\ncel 2\n" .. "\nsun\n".
--- "\n": none; then skins are made of all that are no ground. nil: a render.
+-- For celspan watch each cel has its label (program/stage/stage_tree.c) as its name, and `labels`
+-- chooses the cels that skins are made of, and then those that are hidden: "\nnell\ncel 2\n" ..
+-- "\nsun\n". "\n": none; then skins are made of all that are no ground. nil: a render.
 local core, film, before, after, width, height, name, labels = ...
 local celspan = require "celspan"
 local scenes = require "celspan.scenes"

@@ -1,7 +1,7 @@
 --- celspan stage SCRIPT: a film that answers requests, for celspan watch, which runs several of
---- them (program/renderer_service.c).
+--- them (program/services/renderer_service.c).
 --
---   standard input    { "want": "frame", "number": 3, ... }, as program/stage_service.c reads it
+--   standard input    { "want": "frame", "number": 3, ... }, read by services/stage_service.c
 --   standard output   size, size of the head, { "good": true, ... }, bytes
 --
 -- Sizes have four bytes, the highest first. The answer for a frame says that it has `begun`. Its

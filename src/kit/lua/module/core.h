@@ -61,7 +61,7 @@ int cs_folders_frame_name(lua_State *L);
 /* ---------------------------------------------------------------- movies */
 
 /* A function that a host may provide to open movies: (path, tried | nil) -> facts | nil, message.
- * facts: as program/movies.c puts them, with `picture`, a function. */
+ * facts: as program/film/movies.c puts them, with `picture`, a function. */
 #define CS_CORE_MOVIE "celspan.movie" /* its name in the registry */
 /* Another one: (path) -> whether the file has the first bytes of a movie. */
 #define CS_CORE_IS_MOVIE "celspan.is_movie"

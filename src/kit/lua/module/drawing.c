@@ -25,7 +25,7 @@
 #include "lua/bind/put.h"
 #include "lua/bind/userdata.h"
 #include "lua/nouns/shape.h"
-#include "readers/svg/art.h"
+#include "readers/svg/document/art.h"
 #include "readers/svg/read.h"
 
 #define METATABLE "celspan.drawing"

@@ -12,9 +12,9 @@
 #include "inside/number.h"
 #include "inside/scene.h"
 #include "inside/sort.h"
-#include "readers/svg/art.h"
-#include "readers/svg/boxes.h"
-#include "readers/svg/motion.h"
+#include "readers/svg/document/art.h"
+#include "readers/svg/draw/boxes.h"
+#include "readers/svg/motion/motion.h"
 #include "readers/svg/read.h"
 
 CS_DESCRIBE(celspan_svg_desc, struct_size, .space = CELSPAN_SPACE_SRGB, .seconds = -1)

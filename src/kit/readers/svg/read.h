@@ -2,7 +2,7 @@
 #pragma once
 
 #include "celspan/svg.h"
-#include "readers/svg/reading.h"
+#include "readers/svg/document/reading.h"
 
 /* The fonts and the space for reading a drawing. */
 typedef struct cs_svg_options {

@@ -22,7 +22,8 @@ local SOON, LATE = 0.25, 1.5 -- seconds
 local IDLE = 20              -- a renderer that is not needed ends after this many seconds
 local TAIL = 2000            -- bytes of the last words that are kept
 local REQUEST_MOST = 32700   -- the most bytes of a request to a renderer, without its workers
--- frames that a renderer draws: one for each of its threads (program/stage_service.c), and one more
+-- frames that a renderer draws: one for each of its threads (program/services/stage_service.c), and
+-- one more
 local DRAWN_MOST, DRAWN_AHEAD = 4, 1
 
 local renderers = {}

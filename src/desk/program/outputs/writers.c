@@ -1,0 +1,96 @@
+#include "program/outputs/writers.h"
+
+#include "inside/films.h"
+#include "writers/plane/plane.h"
+
+static const int usual_precision = 3;
+static const double usual_scale = 2;
+
+celspan_status cs_write_layers(celspan_context *context, const cs_request *request,
+                               const cs_output *output, const cs_page *page) {
+  cs_apart_contents contents = {.format = output->layers,
+                                .has_layers = cs_request_has(request, "--layers"),
+                                .place = cs_sequence_place(cs_request_text(request, "-o"))};
+  cs_request_read(request, "--cryptomatte", &contents.mattes);
+  switch (output->layers) {
+  case CS_APART_PNG:
+    return cs_apart_write_png(context, contents, page->frame, page->path, page->file);
+  case CS_APART_ORA:
+    return cs_apart_write_ora(context, page->frame, page->path, page->file);
+  case CS_APART_PSD:
+    return cs_apart_write_psd(context, page->frame, page->path, page->file);
+  case CS_APART_EXR:
+    break;
+  }
+  return cs_apart_write_exr(context, contents, page->frame, page->path, page->file);
+}
+
+/* ---------------------------------------------------------------- drawings */
+
+cs_plot_desc cs_write_describe(const cs_request *request, bool is_pdf) {
+  cs_plot_desc desc = {.precision = usual_precision, .scale = usual_scale, .is_pdf = is_pdf};
+  int32_t size[2] = {0, 0};
+  cs_request_read(request, "--flat", &desc.flat);
+  cs_request_read(request, "--precision", &desc.precision);
+  cs_request_read(request, "--scale", &desc.scale);
+  cs_request_read(request, "--size", size);
+  desc.width = size[0];
+  desc.height = size[1];
+  return desc;
+}
+
+void cs_write_report(const celspan_context *context, const char *path, const cs_plot_desc *desc,
+                     const cs_plot_facts *facts) {
+  const char *format = desc->is_pdf ? "PDF" : "SVG";
+  if (facts->is_picture)
+    cs_report_note("%s: is a picture of %d x %d pixels, because it has no vectors for this: %s",
+                   path, (int)facts->picture_width, (int)facts->picture_height,
+                   celspan_context_error(context));
+  else if (facts->pictures == 1)
+    cs_report_note("%s: what %s has no vectors for is a picture of %d x %d pixels, beside %zu "
+                   "areas",
+                   path, format, (int)facts->picture_width, (int)facts->picture_height,
+                   facts->areas);
+  else if (facts->pictures > 1)
+    cs_report_note("%s: what %s has no vectors for is %zu pictures, the largest of %d x %d "
+                   "pixels, beside %zu areas",
+                   path, format, facts->pictures, (int)facts->picture_width,
+                   (int)facts->picture_height, facts->areas);
+}
+
+/* Writes a file of one page. */
+static celspan_status write_drawing(celspan_context *context, cs_plot_desc *desc,
+                                    const cs_page *page) {
+  cs_plot *plot;
+  cs_plot_facts facts;
+  desc->title = page->file->title;
+  CS_TRY(cs_plot_begin(context, page->path, desc, &plot));
+  celspan_status status = page->plane ? cs_plot_add_plane(plot, page->plane, &facts)
+                                      : cs_plot_add_frame(plot, page->frame, &facts);
+  CS_TRY(cs_plot_end(plot, status));
+  cs_write_report(context, page->path, desc, &facts);
+  return CELSPAN_OK;
+}
+
+celspan_status cs_write_svg(celspan_context *context, const cs_request *request,
+                            const cs_output *output, const cs_page *page) {
+  cs_plot_desc desc = cs_write_describe(request, false);
+  (void)output;
+  return write_drawing(context, &desc, page);
+}
+
+celspan_status cs_write_pdf(celspan_context *context, const cs_request *request,
+                            const cs_output *output, const cs_page *page) {
+  cs_plot_desc desc = cs_write_describe(request, true);
+  (void)output;
+  return write_drawing(context, &desc, page);
+}
+
+/* ---------------------------------------------------------------- planes */
+
+celspan_status cs_write_plane(celspan_context *context, const cs_request *request,
+                              const cs_output *output, const cs_page *page) {
+  (void)request, (void)output;
+  return cs_plane_write_frame(context, page->frame, page->path,
+                              cs_plane_depth(page->file->coding->depth));
+}
