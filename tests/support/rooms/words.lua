@@ -21,7 +21,7 @@ words.list = {
     places = { "frames/render/", "output/png/", "writers/join/", "output/sinks/strip",
                "output/sinks/tga", "output/sinks/span", "output/sinks/file_sink",
                "tools/relight/stack", "frames/film/", "base/pipeline", "model/pictures/",
-               "program/farm", "program/join", "program/re", "program/stage", "program/view" } },
+               "program/" } },
   { word = "band",
     means = "rows of a frame, or node rows of a defocused cel's grid, that are kept together; "
       .. "frequencies of a sound",

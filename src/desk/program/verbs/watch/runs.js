@@ -1,5 +1,5 @@
-// The form in which pixels are sent to the page (program/stage/stage.c): runs of one pixel, and of the
-// pixels above. A frame has tens of thousands, most of them short.
+// The form in which pixels are sent to the page (stage/stage.c): runs of one pixel, and of pixels
+// above. A frame has tens of thousands, most of them short.
 const FILL = 2 ** 30, ABOVE = 2 ** 31; // heads of these kinds are at least as large
 const SHORT = 64; // below this many pixels a loop is faster than a call
 
