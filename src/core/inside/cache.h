@@ -1,7 +1,7 @@
-/* Memory that is bounded.
+/* Memory that is kept.
  *
- *     base/cache.h  What is held stays while it is used.
- *     base/arena.h  All is freed at once, and nothing moves.
+ *   base/arena.h   what was taken does not move, and ends with the next reset
+ *   base/cache.h   what is pinned stays; results depend neither on the budget nor on the workers
  */
 #pragma once
 

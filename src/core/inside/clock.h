@@ -1,6 +1,6 @@
 /* Time that passes.
  *
- *     base/clock.h  It never goes back.
+ *   base/clock.h   it never goes back
  */
 #pragma once
 

@@ -1,13 +1,14 @@
 /* Colours.
  *
- *     model/colour/transfer.h        Codes and light of sRGB.
- *     model/colour/transfer_names.h  Names of curves.
- *     model/colour/blend.h           Modes in which layers are blended.
- *     model/colour/space.h           Spaces in which layers are mixed.
- *     model/colour/primaries.h       Primaries of files.
- *     model/colour/grade.h           Grades.
- *     model/colour/srgb8.h           Codes of 8 bits.
- *     model/colour/srgb8_lanes.h     Codes of 8 bits, several at a time.
+ *   model/colour/transfer.h         curves between light and codes, with the same bits everywhere
+ *   model/colour/transfer_names.h   one list of their names
+ *   model/colour/primaries.h        primaries in the order of OpenEXR
+ *   model/colour/blend.h            the formula of each mode
+ *   model/colour/space.h            0 and 1 do not change, and a colour that goes there and back
+ *                                   stays
+ *   model/colour/grade.h            steps that do nothing are left out, to the bit
+ *   model/colour/srgb8.h            the pixel of a colour, and back
+ *   model/colour/srgb8_lanes.h      the same for a register of pixels
  */
 #pragma once
 

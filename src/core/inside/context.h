@@ -1,12 +1,11 @@
-/* Contexts: memory that is counted, errors with a sentence, and the thread they belong to.
+/* Contexts: memory that is counted, and errors with a sentence.
  *
- *     base/context.h     cs_fail and CS_TRY, CS_RESERVE and the allocations of a context keep their
- *                        meaning.
- *     base/error_text.h  A sentence of an error may be taken, and put back with more words.
- *     base/counted.h     A counted value is freed by the last owner, in whatever thread that lets
- *                        it go.
- *     base/mark.h        A mark says where in a script a value was made.
- *     base/tried.h       What was tried and failed is remembered by its name.
+ *   base/context.h      every allocation is counted, and a failure leaves a status and a sentence
+ *   base/error_text.h   the sentence of an errno, in any thread
+ *   base/counted.h      a value lives until its last reference is dropped, in whatever thread
+ *   base/mark.h         a name is valid UTF-8 of a bounded length; marks change no hash and no
+ *                       pixel
+ *   base/tried.h        the message about a missing file names the other places that were tried
  */
 #pragma once
 

@@ -1,6 +1,6 @@
 /* Descriptions that hosts give.
  *
- *     base/description.h  Behind cs_description_read every description is full.
+ *   base/description.h   a description that was read is full, whichever header the host had
  */
 #pragma once
 

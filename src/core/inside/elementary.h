@@ -1,8 +1,8 @@
-/* Functions with the same bits on every machine.
+/* Functions with the same bits on every machine and under every compiler.
  *
- *     base/elementary.h  The last bit does not change without new goldens.
- *     base/splitmix.h    The sequence of numbers of a seed does not change.
- *     base/functions.h   The functions of math.h for all numbers, with the same bits everywhere.
+ *   base/elementary.h   sine, power and their like, by plain IEEE arithmetic
+ *   base/functions.h    the functions of math.h for all numbers, infinities too
+ *   base/splitmix.h     a seed gives the same sequence for ever
  */
 #pragma once
 

@@ -1,8 +1,9 @@
 /* Files.
  *
- *     base/open.h               A descriptor is not inherited by processes that are started.
- *     output/sinks/temporary.h  A file appears under its name whole, or not at all.
- *     output/sinks/file_copy.h  A copy has the bytes of what was measured, or is not made.
+ *   base/open.h                started programs do not inherit files, no call waits for a pipe, and
+ *                              interrupted calls are made again
+ *   output/sinks/temporary.h   a file that is not finished has a temporary name
+ *   output/sinks/file_copy.h   a copy is the file that was measured, or is not made
  */
 #pragma once
 

@@ -1,16 +1,17 @@
-/* Compiled frames, for what reads their rows or their layers.
+/* Compiled frames, for what reads their rows, their layers or their borders.
  *
- *     frames/render/frame.h     A frame that is ready to be drawn.
- *     frames/render/compile.h   The layers of a frame.
- *     engine/span/row.h         A row of spans.
- *     engine/span/row_queue.h   Rows that wait.
- *     engine/row/plan.h         What a row is made from.
- *     engine/defocus/defocus.h  Layers that are defocused.
- *     engine/defocus/bands.h    Rows of their grids.
- *     engine/paint/over_row.h   The fold of a row.
- *     engine/compose/stack.h    The stack of layers.
- *     engine/compose/cell.h     The set of layers between two boundaries.
- *     engine/events/visit.h     The boundaries of a drawing.
+ *   frames/render/frame.h      a compiled frame does not change, and row workers share it
+ *   frames/render/compile.h    a rostrum becomes a plan
+ *   engine/row/plan.h          a plan never changes, and borrows the values of its rostrum
+ *   engine/span/row.h          spans are sorted, disjoint, without gaps, and equal neighbours are
+ *                              one
+ *   engine/span/row_queue.h    rows that are read later
+ *   engine/compose/stack.h     layers from the rear to the camera, with their groups
+ *   engine/compose/cell.h      a cell depends on its set of layers alone
+ *   engine/paint/over_row.h    the fold of a program over a run of pixels
+ *   engine/events/visit.h      the parts of boundaries between different cells
+ *   engine/defocus/defocus.h   a defocused layer, as far as it is read
+ *   engine/defocus/bands.h     its rows, kept from frame to frame
  */
 #pragma once
 

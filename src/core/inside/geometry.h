@@ -1,11 +1,11 @@
 /* Outlines.
  *
- *     model/geometry/matrix.h   Matrices of two dimensions.
- *     model/geometry/outline.h  An outline is a list of closed chains.
- *     model/stroke/curve.h      Lengths along curves.
- *     model/stroke/outliner.h   The outline of a stroke.
- *     model/stroke/stroke.h     The description of a stroke.
- *     model/warp/bend.h         Bent objects.
+ *   model/geometry/matrix.h    matrices of 3 x 3, and whether they can be inverted
+ *   model/geometry/outline.h   contours are closed to the bit, and their pieces share their joints
+ *   model/stroke/curve.h       lengths along a curve, and the place at a length
+ *   model/stroke/outliner.h    the outline of a line, with errors below a given one
+ *   model/stroke/stroke.h      a stroke as a description, with its dashes and tapers
+ *   model/warp/bend.h          an outline that a map has bent
  */
 #pragma once
 

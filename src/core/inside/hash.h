@@ -1,7 +1,7 @@
-/* Hashes.
+/* Hashes of 128 bits.
  *
- *     base/hash.h        The hash of equal bytes is equal in all versions.
- *     base/hash_table.h  Keys are of 128 bits; they are not looked at again.
+ *   base/hash.h         equal values have equal hashes in every process and on every machine
+ *   base/hash_table.h   what has equal hashes counts as equal
  */
 #pragma once
 

@@ -1,9 +1,9 @@
-/* Modules with libraries, and the program in which they are.
+/* The program, its modules and its machine.
  *
- *     base/module.h   A module is loaded once, when it is first needed.
- *     base/program.h  The file of this program, and the folders beside it.
- *     base/ceiling.h  How many bytes the process may hold.
- *     base/machine.h  What the processor and the control group allow.
+ *   base/module.h    a module is loaded when it is first needed, from one of three known places
+ *   base/program.h   the file of the running program
+ *   base/ceiling.h   the bytes that a run may hold, with its caches
+ *   base/machine.h   the processors and the memory that this process may use
  */
 #pragma once
 

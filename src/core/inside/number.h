@@ -1,8 +1,9 @@
-/* Numbers.
+/* Numbers from outside.
  *
- *     base/number.h   Functions that are inline, and have the same result on every machine.
- *     base/decimal.h  Texts become the nearest double, whatever the locale.
- *     base/hex.h      Digits of base 16.
+ *   base/number.h    a number that passed the check is finite and at most 1e12; doubles become
+ *                    integers without traps
+ *   base/decimal.h   a text is the same number on every machine, whatever the locale
+ *   base/hex.h       digits of base 16 alone
  */
 #pragma once
 

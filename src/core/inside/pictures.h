@@ -1,11 +1,12 @@
 /* Decoded pictures.
  *
- *     model/pictures/module.h         The table of functions of a module of pictures.
- *     model/pictures/store.h          Pictures of a context, which are decoded once.
- *     model/pictures/picture.h        The parts of a picture.
- *     model/pictures/load.h           Rows of a picture.
- *     model/pictures/surface.h        Pictures that a host or a reader gives.
- *     model/pictures/configuration.h  Spaces of a configuration.
+ *   model/pictures/module.h          the table of a picture module: no exception crosses it, no
+ *                                    memory changes its owner
+ *   model/pictures/store.h           blocks of texels in one budget, shared by all threads
+ *   model/pictures/load.h            a block is read by one thread at a time
+ *   model/pictures/picture.h         a picture is a value; its texels are found by its hash
+ *   model/pictures/surface.h         pixels in memory never change, or their key promises so
+ *   model/pictures/configuration.h   the spaces of an OpenColorIO configuration
  */
 #pragma once
 

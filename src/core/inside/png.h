@@ -1,8 +1,8 @@
 /* PNG and deflate.
  *
- *     output/png/strips.h       Strips of a PNG by several workers.
- *     output/png/chunk.h        Chunks.
- *     output/deflate/deflate.h  Streams of deflate.
+ *   output/png/strips.h        one PNG from strips of several workers, with the same bytes
+ *   output/png/chunk.h         chunks with their sums
+ *   output/deflate/deflate.h   a stream of deflate from runs and bytes
  */
 #pragma once
 

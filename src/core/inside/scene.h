@@ -1,17 +1,20 @@
 /* Values of scenes.
  *
- *     model/scene/scene.h           Values are immutable, counted, and may be used by several
- *                                   threads.
- *     model/scene/check.h           What a value may be is asked here and nowhere else.
- *     model/scene/primitive_data.h  The parts of a primitive.
- *     model/scene/bounds.h          The box of what an object shows.
- *     model/scene/texture.h         The parts of a texture.
- *     model/scene/walk.h            Every value below a value is met once.
- *     model/scene/inspect.h         What lies under a point.
- *     model/scene/nearby.h          Effects that read neighbouring pixels.
- *     model/scene/value.h           What all values have in common.
- *     model/scene/displace.h        Objects whose pixels come from elsewhere.
- *     model/scene/grade.h           Objects that are graded.
+ *   model/scene/scene.h            values never change, and every number in them was checked
+ *   model/scene/check.h            a wrong argument is refused with its noun, its field and what is
+ *                                  allowed
+ *   model/scene/value.h            how a value is made: its memory, its hash, its references
+ *   model/scene/primitive_data.h   every primitive has an outline, procedures too
+ *   model/scene/texture.h          the kinds of textures, and what each has
+ *   model/scene/bounds.h           boxes are tight, except the one that says otherwise
+ *   model/scene/walk.h             each value below another is visited, shared ones each time they
+ *                                  occur
+ *   model/scene/inspect.h          a picture that cannot be read is reported once a primitive, in
+ *                                  order
+ *   model/scene/nearby.h           a rule is a function of the samples around a place, and of
+ *                                  nothing else
+ *   model/scene/displace.h         a displaced object is a composition with a shift
+ *   model/scene/grade.h            a grade is a value with a hash of its steps
  */
 #pragma once
 

@@ -1,14 +1,16 @@
 /* What takes rows of spans.
  *
- *     output/sinks/file.h          A file that gets its rows in order.
- *     output/sinks/pixels.h        Codings of pixels.
- *     output/sinks/sink.h          The functions of a sink.
- *     output/sinks/picture_file.h  Files that a module writes.
- *     output/sinks/coder.h         Rows of spans become bytes.
- *     output/sinks/strip.h         Rows that are made together.
- *     output/sinks/tga.h           The head of Targa.
- *     output/sinks/shares.h        Shares of channels.
- *     output/sinks/ycbcr.h         Luma and chroma.
+ *   output/sinks/sink.h           rows come whole and in order; after a failure nothing is called
+ *                                 but the end
+ *   output/sinks/file.h           a file has its name when it is complete, and not before
+ *   output/sinks/pixels.h         rows as coded pixels, of any coding
+ *   output/sinks/coder.h          the same by the workers, with dithering
+ *   output/sinks/planes_sink.h    pixels as planes of luma and chroma, for videos
+ *   output/sinks/picture_file.h   files of formats that a picture module writes
+ *   output/sinks/strip.h          rows that are made together, as a file of their own
+ *   output/sinks/shares.h         a sink that takes rows from several threads
+ *   output/sinks/tga.h            the head of a Targa file
+ *   output/sinks/ycbcr.h          luma and chroma of a row, as standards define them
  */
 #pragma once
 

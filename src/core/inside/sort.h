@@ -1,6 +1,6 @@
 /* Sorting.
  *
- *     base/sort.h  The order of equal keys is the one that they came in.
+ *   base/sort.h   no memory, n log n at most, and one result where the order is strict
  */
 #pragma once
 

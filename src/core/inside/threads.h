@@ -1,7 +1,7 @@
 /* Threads.
  *
- *     base/thread_pool.h  Tasks are taken in order; the calling thread works, too.
- *     base/pipeline.h     Results come in the order of their tasks.
+ *   base/thread_pool.h   fewer threads do the same work; signals reach the calling thread alone
+ *   base/pipeline.h      items are made by any worker and delivered in their order
  */
 #pragma once
 

@@ -1,6 +1,7 @@
-/* Registers.
+/* Vectors of floats.
  *
- *     base/wide.h  A lane is a float, and operations on it round as those on a float.
+ *   base/wide.h   a lane has the bits of the same operation on one float, whichever instructions
+ *                 are chosen
  */
 #pragma once
 
