@@ -37,7 +37,7 @@ return {
     { "*edges = (cs_defocus_edges){0};", "drop `*edges = (cs_defocus_edges){0};`",
       "is freed together with the object that contains it" },
   },
-  ["src/core/engine/defocus/sums.c"] = {
+  ["src/core/engine/defocus/sample_sums.c"] = {
     { "for (size_t k = 0; k < count; k++)", "`0` to `1`",
       "the weight of the middle is not read: it is 1 minus those of the pairs" },
   },
@@ -48,7 +48,7 @@ return {
   ["src/core/engine/paint/gradient_table.c"] = {
     { "cs_set_hash name = {0};", "`0` to `1`", "every name changes by the same amount" },
   },
-  ["src/core/engine/paint/lines.c"] = {
+  ["src/core/engine/paint/gradient_lines.c"] = {
     { "if (last->column - first->column > 1)", "`-` to `+`",
       "computes colours between two neighbouring columns, where nothing is compared" },
     { "if (last->column - first->column > 1)", "`>` to `>=`",

@@ -17,7 +17,7 @@
 #include "program/options/progress.h"
 #include "program/options/verbs.h"
 #include "writers/tiles/page.h"
-#include "writers/tiles/render.h"
+#include "writers/tiles/tile_render.h"
 
 enum { TILE_LEAST = 16, TILE_MOST = 8192, TILES_MOST = 200000, NAME_SIZE = 128 };
 

@@ -4,10 +4,10 @@
 #include <math.h>
 #include <string.h>
 
-#include "engine/defocus/lines.h"
 #include "engine/defocus/regrid.h"
+#include "engine/defocus/sample_sums.h"
 #include "engine/defocus/slices.h"
-#include "engine/defocus/sums.h"
+#include "engine/defocus/swept_lines.h"
 #include "engine/sample/defocused.h"
 #include "tests/support/check.h"
 #include "tests/support/memory.h"

@@ -8,9 +8,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/functions.h"
 #include "base/hash.h"
 #include "base/number.h"
-#include "base/functions.h"
 #include "tests/support/check.h"
 #include "tests/support/random.h"
 

@@ -1,6 +1,6 @@
-/* engine/paint/gradient_table.c, gradient_run.c, lines.c and few.c: programs of gradients have the
- * colours that folding their paints gives, and their runs are right within 1/1023; those of one
- * gradient with fewer colours than columns.
+/* engine/paint/gradient_table.c, gradient_run.c, gradient_lines.c and few.c: programs of gradients
+ * have the colours that folding their paints gives, and their runs are right within 1/1023; those
+ * of one gradient with fewer colours than columns.
  */
 #include "engine/paint/run.h"
 

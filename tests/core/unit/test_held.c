@@ -9,12 +9,12 @@
 #include "base/thread_pool.h"
 #include "frames/render/ways.h"
 #include "output/sinks/pixels.h"
+#include "output/sinks/planes_sink.h"
 #include "output/sinks/sink.h"
 #include "tests/support/memory.h"
 #include "tests/support/picture.h"
 #include "tests/support/random.h"
 #include "tests/support/scene.h"
-#include "output/sinks/planes_sink.h"
 
 enum { WIDTH = 96, HEIGHT = 160, CELS = 6, SHAPES = 70, PIXELS = WIDTH * HEIGHT };
 

@@ -4,8 +4,8 @@
 #include "frames/film/shoot.h"
 
 #include "base/context.h"
-#include "tests/support/scene.h"
 #include "frames/film/slots.h"
+#include "tests/support/scene.h"
 
 enum { FRAMES = 12, SCENES = 5, NOWHERE = -1 };
 

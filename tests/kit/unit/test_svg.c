@@ -3,8 +3,8 @@
 #include "celspan/celspan.h"
 #include "celspan/svg.h"
 #include "readers/svg/document/art.h"
-#include "readers/svg/words/colours.h"
 #include "readers/svg/read.h"
+#include "readers/svg/words/colours.h"
 #include "tests/support/check.h"
 #include "tests/support/memory.h"
 

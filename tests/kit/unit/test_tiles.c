@@ -15,7 +15,7 @@
 #include "tests/support/random.h"
 #include "tests/support/scene.h"
 #include "writers/tiles/log.h"
-#include "writers/tiles/render.h"
+#include "writers/tiles/tile_render.h"
 
 enum {
   PYRAMIDS = 120, /* 40 sizes in three layouts */

@@ -18,9 +18,10 @@
  * with the radius, from one pixel up, so the work falls as the radius grows.
  *
  * Flat art is blurred by its boundaries: through a kernel (kernel/), or under a wide Gaussian line
- * by line (lines.h). Where pictures and gradients vary between the boundaries, samples on a finer
- * grid are summed: sums.h for a Gaussian, slices.h for even kernels. A cel that has a rule of its
- * own (model/scene/nearby.h) is sharpened by sums.h, and changed by neighbours.h.
+ * by line (swept_lines.h). Where pictures and gradients vary between the boundaries, samples on a
+ * finer grid are summed: sample_sums.h for a Gaussian, slices.h for even kernels. A cel that has a
+ * rule of its own (model/scene/nearby.h) is sharpened by sample_sums.h, and changed by
+ * neighbours.h.
  */
 #pragma once
 
@@ -28,9 +29,9 @@
 #include "engine/defocus/edges.h"
 #include "engine/defocus/neighbours.h"
 #include "engine/defocus/regrid.h"
+#include "engine/defocus/sample_sums.h"
 #include "engine/defocus/shifted.h"
 #include "engine/defocus/slices.h"
-#include "engine/defocus/sums.h"
 #include "engine/row/row.h"
 
 #include <stddef.h>

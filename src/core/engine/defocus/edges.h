@@ -14,7 +14,7 @@
  *
  * A line lies on the border between two rows and weighs both of them by a tent, so that neither
  * axis shows where inside a sample an edge lies. For a box of radius r this rounds its kinks by
- * 1/(12 r). Here are the tables; lines.h sweeps the rows.
+ * 1/(12 r). Here are the tables; swept_lines.h sweeps the rows.
  */
 #pragma once
 

@@ -1,7 +1,7 @@
 #include "engine/defocus/fill.h"
 
 #include "base/number.h"
-#include "engine/defocus/lines.h"
+#include "engine/defocus/swept_lines.h"
 #include "engine/row/row.h"
 
 #define GROUP CS_DEFOCUSED_GROUP

@@ -1,7 +1,7 @@
-/* The bands of a layer: rows that are summed together (sums.h, slices.h, neighbours.h), those of
- * means over pixels, of what is read along a shift (shifted.h), or of flat art, which are made one
- * after the other from its boundaries alone, through the kernel of the plans or line by line
- * (lines.h).
+/* The bands of a layer: rows that are summed together (sample_sums.h, slices.h, neighbours.h),
+ * those of means over pixels, of what is read along a shift (shifted.h), or of flat art, which are
+ * made one after the other from its boundaries alone, through the kernel of the plans or line by
+ * line (swept_lines.h).
  *
  *  plan of S --boundaries--> a row of nodes --\                 /--> polyline, where a row of nodes
  *                                              >--> even groups     is a row of pixels,

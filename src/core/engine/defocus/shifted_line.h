@@ -7,12 +7,12 @@
  *     + + . . . . . .       rows are copied, continued by their ends on both sides, no farther
  *                           than a whole row of the frame
  *
- * Differences from the middle node are summed (sums.h), so that equal nodes keep their bits.
+ * Differences from the middle node are summed (sample_sums.h), so that equal nodes keep their bits.
  */
 #pragma once
 
+#include "engine/defocus/sample_sums.h"
 #include "engine/defocus/shifted_source.h"
-#include "engine/defocus/sums.h"
 
 /* A node from the middle one, and the weight of it and of the opposite one. */
 typedef struct cs_shifted_weight {

@@ -6,7 +6,7 @@
  *            |-- colours.h   samples, over_row --> pixels
  *            `-- run.h       visible items     --> shown.h
  *                            a picture shows   --> pixels, or their codes
- *                            formulas only     --> few linear spans (lines.c)
+ *                            formulas only     --> few linear spans (gradient_lines.c)
  *                            one defocused cel --> from node to node (run.c)
  *
  * The composer says which layers are visible; the painter keeps the data that their colours need:

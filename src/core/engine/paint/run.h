@@ -25,7 +25,7 @@ CELSPAN_CHECKED celspan_status cs_painter_run_program(cs_painter *painter,
  */
 bool cs_painter_blends(const cs_painter *painter, const cs_cell *cell);
 
-/* ---- lines.c */
+/* ---- gradient_lines.c */
 
 /* As cs_painter_run_program, where no picture shows pixel by pixel. */
 CELSPAN_CHECKED celspan_status cs_lines_run(cs_painter *painter, const cs_program *program,

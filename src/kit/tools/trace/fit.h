@@ -18,7 +18,7 @@
 #pragma once
 
 #include "tools/trace/corners.h"
-#include "tools/trace/text.h"
+#include "tools/trace/path_text.h"
 
 #define CS_FIT_GRID 1000
 

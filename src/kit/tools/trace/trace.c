@@ -14,10 +14,10 @@
 #include "tools/trace/borders.h"
 #include "tools/trace/colours.h"
 #include "tools/trace/curves.h"
-#include "tools/trace/lines.h"
+#include "tools/trace/drawn_lines.h"
+#include "tools/trace/path_text.h"
 #include "tools/trace/regions.h"
 #include "tools/trace/result.h"
-#include "tools/trace/text.h"
 
 CS_DESCRIBE(celspan_trace_desc, picture, .colours = 2, .speckle = 2, .smooth = 1)
 

@@ -9,9 +9,9 @@
 #include "inside/number.h"
 #include "inside/sinks.h"
 #include "tools/trace/fit.h"
+#include "tools/trace/path_text.h"
 #include "tools/trace/result.h"
 #include "tools/trace/spline.h"
-#include "tools/trace/text.h"
 
 /* ---------------------------------------------------------------- contour */
 

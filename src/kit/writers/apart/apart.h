@@ -94,7 +94,7 @@ const char *cs_apart_title(const cs_apart_layer *layer);
  * become _. It is cut where it has more than `most` bytes, at the beginning of a character. */
 void cs_safe_name(const char *name, size_t most, char out[CS_APART_NAME]);
 
-/* ---- sums.c */
+/* ---- adding_up.c */
 
 /* Whether the layers over each other are the frame, where edges do not share a pixel. why: else a
  * clause that says what prevents it. coding: of the files. film_space: of the frame's

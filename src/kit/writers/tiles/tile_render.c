@@ -1,4 +1,4 @@
-#include "writers/tiles/render.h"
+#include "writers/tiles/tile_render.h"
 
 #include <string.h>
 

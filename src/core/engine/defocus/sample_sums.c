@@ -1,4 +1,4 @@
-#include "engine/defocus/sums.h"
+#include "engine/defocus/sample_sums.h"
 
 #include "base/elementary.h"
 #include "base/number.h"

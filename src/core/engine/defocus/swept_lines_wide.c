@@ -7,7 +7,7 @@
  *   lines[1]   . . . . . . . .   weights[0]  pair to the middle
  *   lines[3]   . . . . . . . .   weights[1]
  */
-#include "engine/defocus/lines.h"
+#include "engine/defocus/swept_lines.h"
 
 #define TOGETHER 4 /* registers that are summed in one pass */
 #define SAME 1e-6f /* a relative difference that is rounding */

@@ -1,4 +1,4 @@
-#include "tools/trace/lines.h"
+#include "tools/trace/drawn_lines.h"
 
 #include <math.h>
 #include <string.h>

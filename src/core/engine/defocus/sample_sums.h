@@ -49,7 +49,7 @@ CELSPAN_CHECKED celspan_status cs_defocus_sums_fill(const cs_defocus_sums *sums,
                                                     cs_row_maker *maker, int plane, int32_t columns,
                                                     int32_t first, int32_t end, float (*nodes)[4]);
 
-/* ---- sums_wide.c */
+/* ---- sample_sums_wide.c */
 
 #define CS_DEFOCUS_SUMS_TOGETHER 16 /* nodes that are summed at once; counts are multiples of it */
 

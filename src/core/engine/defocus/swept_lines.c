@@ -1,4 +1,4 @@
-#include "engine/defocus/lines.h"
+#include "engine/defocus/swept_lines.h"
 
 #include "base/number.h"
 #include "engine/sample/defocused.h"

@@ -35,7 +35,7 @@ void cs_defocus_lines_free(cs_defocus_lines *lines);
 CELSPAN_CHECKED celspan_status cs_defocus_lines_row(cs_defocus_lines *lines, int32_t row,
                                                     float (*nodes)[4], bool *even);
 
-/* ---- lines_wide.c */
+/* ---- swept_lines_wide.c */
 
 /* The values that a row adds to the line above it and to the line below it. */
 typedef struct cs_defocus_halves {

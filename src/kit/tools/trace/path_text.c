@@ -1,4 +1,4 @@
-#include "tools/trace/text.h"
+#include "tools/trace/path_text.h"
 
 #include <math.h>
 #include <stdio.h>

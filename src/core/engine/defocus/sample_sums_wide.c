@@ -6,7 +6,7 @@
  *
  * Differences from the middle value are summed, so that equal values keep their bits.
  */
-#include "engine/defocus/sums.h"
+#include "engine/defocus/sample_sums.h"
 
 /* Of sums in a pass: so many that they stay in registers, and that CS_DEFOCUS_SUMS_TOGETHER nodes
  * fill whole passes. */
