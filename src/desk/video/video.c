@@ -10,9 +10,8 @@
 /* ---------------------------------------------------------------- opening */
 
 static size_t frame_size(const cs_video *video, int32_t width, int32_t height) {
-  return video->layout == CS_VIDEO_RGBA
-             ? video->stride * (size_t)height
-             : cs_planes_size(width, height, video->layout == CS_VIDEO_420);
+  return video->layout == CS_VIDEO_RGBA ? video->stride * (size_t)height
+                                        : cs_ycc_size(width, height, video->layout == CS_VIDEO_420);
 }
 
 static celspan_status open_file(const cs_video *video, cs_file **file, const char **name) {
@@ -179,23 +178,23 @@ static celspan_coding plain_coding(const cs_video *video, const celspan_frame_de
   return plain;
 }
 
-static celspan_sink planes_sink(const cs_video *video, const celspan_frame_desc *desc,
-                                unsigned char *pixels, cs_planes *planes) {
-  *planes = (cs_planes){.coder = cs_coder_of(&video->coding, desc->crop_x, desc->crop_y),
-                        .is_halved = video->layout == CS_VIDEO_420,
-                        .bytes = pixels};
-  planes->coder.coding.space = desc->space;
+static celspan_sink ycc_sink(const cs_video *video, const celspan_frame_desc *desc,
+                             unsigned char *pixels, cs_ycc *ycc) {
+  *ycc = (cs_ycc){.coder = cs_coder_of(&video->coding, desc->crop_x, desc->crop_y),
+                  .is_halved = video->layout == CS_VIDEO_420,
+                  .bytes = pixels};
+  ycc->coder.coding.space = desc->space;
   if (celspan_frame_is_opaque(desc)) /* the same result, faster */
-    planes->coder.coding.alpha = CELSPAN_ALPHA_STRAIGHT;
-  return cs_planes_sink(planes);
+    ycc->coder.coding.alpha = CELSPAN_ALPHA_STRAIGHT;
+  return cs_ycc_sink(ycc);
 }
 
-/* A sink for the pixels in the layout of the encoder. planes: must live as long as the sink. */
+/* A sink for the pixels in the layout of the encoder. ycc: must live as long as the sink. */
 static celspan_status open_sink(const cs_video *video, celspan_context *context,
-                                const celspan_frame_desc *desc, unsigned char *pixels,
-                                cs_planes *planes, celspan_sink *out) {
+                                const celspan_frame_desc *desc, unsigned char *pixels, cs_ycc *ycc,
+                                celspan_sink *out) {
   if (video->layout != CS_VIDEO_RGBA) {
-    *out = planes_sink(video, desc, pixels, planes);
+    *out = ycc_sink(video, desc, pixels, ycc);
     return CELSPAN_OK;
   }
   celspan_coding plain = plain_coding(video, desc);
@@ -216,9 +215,9 @@ static celspan_status open_digest(const cs_video *video, celspan_context *contex
 static celspan_status make_both(const cs_video *video, celspan_context *context,
                                 const celspan_frame_desc *desc, unsigned char *pixels,
                                 uint64_t digest[2]) {
-  cs_planes planes;
+  cs_ycc ycc;
   cs_tee tee;
-  CS_TRY(open_sink(video, context, desc, pixels, &planes, &tee.sinks[0]));
+  CS_TRY(open_sink(video, context, desc, pixels, &ycc, &tee.sinks[0]));
   celspan_status status = open_digest(video, context, desc, digest, &tee.sinks[1]);
   if (status != CELSPAN_OK) {
     cs_sink_discard(context, &tee.sinks[0]);
@@ -233,10 +232,10 @@ static celspan_status make_both(const cs_video *video, celspan_context *context,
 
 static celspan_status make_one(const cs_video *video, celspan_context *context,
                                const celspan_frame_desc *desc, unsigned char *pixels) {
-  cs_planes planes;
+  cs_ycc ycc;
   if (video->layout == CS_VIDEO_RGBA)
     return celspan_frame_pixels(context, desc, &video->coding, pixels, video->stride, NULL);
-  celspan_sink sink = planes_sink(video, desc, pixels, &planes);
+  celspan_sink sink = ycc_sink(video, desc, pixels, &ycc);
   return celspan_frame_render(context, desc, &sink, NULL);
 }
 

@@ -9,8 +9,8 @@
 #include "base/thread_pool.h"
 #include "frames/render/ways.h"
 #include "output/sinks/pixels.h"
-#include "output/sinks/planes_sink.h"
 #include "output/sinks/sink.h"
+#include "output/sinks/ycc_sink.h"
 #include "tests/support/memory.h"
 #include "tests/support/picture.h"
 #include "tests/support/random.h"
@@ -82,11 +82,11 @@ static celspan_status end_own(void *user, celspan_context *context, celspan_stat
 }
 
 /* planes, rows: live as long as the sink, and have the place of the pixels. */
-static celspan_sink sink_of(studio *s, const shot *from, cs_planes *planes, own_rows *rows) {
+static celspan_sink sink_of(studio *s, const shot *from, cs_ycc *planes, own_rows *rows) {
   const cs_coder coder = planes->coder;
   celspan_sink sink = {sizeof sink, rows, begin_own, put_own, end_own, false};
   if (from->into == INTO_PLANES)
-    return cs_planes_sink(planes);
+    return cs_ycc_sink(planes);
   if (from->into == INTO_OWN) {
     studio_check(s, cs_coder_sink(s->context, &coder, &sink));
     return sink;
@@ -105,10 +105,10 @@ static uint64_t draw(studio *s, shot *from, int workers, float *pixels) {
   celspan_statistics statistics = CELSPAN_STATISTICS;
   celspan_frame_desc *desc = &from->frame;
   int32_t width = desc->crop_width ? desc->crop_width : desc->width;
-  cs_planes planes = {
-      .coder = cs_coder_of(&from->coding, desc->crop_x + from->x, desc->crop_y + from->y),
-      .is_halved = true,
-      .bytes = (unsigned char *)pixels};
+  cs_ycc planes = {.coder =
+                       cs_coder_of(&from->coding, desc->crop_x + from->x, desc->crop_y + from->y),
+                   .is_halved = true,
+                   .bytes = (unsigned char *)pixels};
   planes.coder.coding.space = desc->space;
   own_rows rows = {planes.bytes, (size_t)width * cs_pixels_size(&planes.coder.coding)};
   from->exposures[0].rostrum = rostrum_of(s, from);

@@ -8,7 +8,7 @@
 #include "tests/support/check.h"
 #include "tests/support/memory.h"
 #include "tests/support/random.h"
-#include "tools/track/plane.h"
+#include "tools/track/grey.h"
 
 enum { WIDTH = 320, HEIGHT = 240, COUNT = WIDTH * HEIGHT };
 
@@ -192,26 +192,26 @@ static void a_leap_is_followed(celspan_context *context) {
 static void levels_lie_over_each_other(celspan_context *context) {
   enum { SIDE = 64, COUNT_OF_LEVELS = 3 };
   float values[SIDE * SIDE];
-  cs_plane_levels made;
+  cs_grey_levels made;
   for (int i = 0; i < SIDE * SIDE; i++)
     values[i] = (float)(i % SIDE + 3 * (i / SIDE));
-  if (!CHECK(cs_plane_levels_make(context, values, SIDE, SIDE, CS_PLANE_LEVELS, &made) ==
+  if (!CHECK(cs_grey_levels_make(context, values, SIDE, SIDE, CS_PLANE_LEVELS, &made) ==
              CELSPAN_OK))
     return;
   CHECK(made.count == COUNT_OF_LEVELS); /* the last is of 16 pixels */
   for (int level = 0; level < made.count; level++) {
-    const cs_plane *plane = &made.levels[level];
+    const cs_grey *plane = &made.levels[level];
     CHECK(plane->width == SIDE >> level && plane->height == SIDE >> level);
     for (int y = 1; y + 1 < plane->height; y++)
       for (int x = 1; x + 1 < plane->width; x++)
         CHECK_NEAR((double)plane->values[y * plane->width + x],
-                   cs_plane_up(x, level) + 3 * cs_plane_up(y, level), level == 2 ? 1e-3 : 1e-5);
+                   cs_grey_up(x, level) + 3 * cs_grey_up(y, level), level == 2 ? 1e-3 : 1e-5);
   }
-  cs_plane_levels_finish(&made);
+  cs_grey_levels_finish(&made);
 }
 
 /* The lesser eigenvalue of the slopes around a pixel. */
-static double strength_at(const cs_plane *plane, int x, int y) {
+static double strength_at(const cs_grey *plane, int x, int y) {
   double xx = 0, xy = 0, yy = 0;
   for (int i = 0; i < 49; i++) {
     const float *at = plane->values + (y + i / 7 - 3) * WIDTH + x + i % 7 - 3;
@@ -226,7 +226,7 @@ static double strength_at(const cs_plane *plane, int x, int y) {
 /* A corner is where its neighbours in the region hold on no better, at the rim of it too. */
 static void corners_are_the_strongest_around(celspan_context *context) {
   float *values = malloc(COUNT * sizeof *values);
-  const cs_plane plane = {WIDTH, 80, values};
+  const cs_grey plane = {WIDTH, 80, values};
   celspan_point corners[CS_FEATURES_MOST];
   for (int i = 0; i < 40; i++) {
     const cs_features_region region = {10, 10, 50 + 3 * i, 60, NULL};

@@ -27,7 +27,7 @@
  *                     their light is looked up;
  *   engine/paint/over_row.h  up to 256 pixels of one program at once, a register at a time; modes
  *                            are blended by over_blend_wide.c;
- *   engine/paint/over_planes.h  the same for gradients that dim all channels alike;
+ *   engine/paint/over_channels.h  the same for gradients that dim all channels alike;
  *   engine/paint/over_bare.h  the same for pictures alone, shown unchanged;
  *   engine/map/sheets.h  drawings that have a map, one over the other;
  *   engine/area/crowd.c  the samples of a pixel that very many edges cross.

@@ -1,4 +1,4 @@
-/* Pixels of programs of gradients that over_planes.h has folded, and what it keeps of them.
+/* Pixels of programs of gradients that over_channels.h has folded, and what it keeps of them.
  *
  * A cell and the windows on both its sides ask for colours one after the other: trials of lines, a
  * few pixels beside an edge, and the pixels between. So the pixels of all of them are folded once,
@@ -20,16 +20,16 @@
 #define CS_OVER_PLANES_ROOM (CS_OVER_ROW_BATCH + 16) /* whole registers are read and written */
 #define CS_OVER_PLANES_ITEMS 64 /* of a program that is folded ahead: longer ones are rare */
 
-typedef struct cs_over_planes {
+typedef struct cs_over_channels {
   float light[3][CS_OVER_PLANES_ROOM], through[CS_OVER_PLANES_ROOM];
   int32_t count; /* pixels */
   float keep;    /* the share of transparency that the mattes of back lights leave */
-} cs_over_planes;
+} cs_over_channels;
 
 /* The pixels of a run, folded ahead. */
-typedef struct cs_over_planes_ahead {
-  cs_over_planes planes;
+typedef struct cs_over_channels_ahead {
+  cs_over_channels pixels;
   uint32_t layers[CS_OVER_PLANES_ITEMS]; /* of the program's items */
   uint32_t length;                       /* 0: nothing has been folded */
   cs_run run;
-} cs_over_planes_ahead;
+} cs_over_channels_ahead;

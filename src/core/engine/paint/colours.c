@@ -3,7 +3,7 @@
 #include "base/number.h"
 #include "engine/paint/gradient_table.h"
 #include "engine/paint/over_bare.h"
-#include "engine/paint/over_planes.h"
+#include "engine/paint/over_channels.h"
 #include "engine/paint/over_row.h"
 #include "engine/paint/shade.h"
 #include "engine/paint/shown.h"
@@ -215,7 +215,7 @@ static celspan_status batch_colours(cs_painter *painter, const cs_program *progr
                                     const cs_batch *batch, float (*rgba)[4]) {
   const cs_gradient_table *table;
   CS_TRY(cs_gradient_table_find(painter->gradients, program, &table));
-  if (!table && cs_over_planes_colours(painter, program, batch, rgba))
+  if (!table && cs_over_channels_colours(painter, program, batch, rgba))
     return CELSPAN_OK;
   painter->evaluations += (uint64_t)batch->count;
   if (table) {
@@ -233,7 +233,7 @@ static celspan_status batch_colours(cs_painter *painter, const cs_program *progr
 
 celspan_status cs_painter_batch_colours(cs_painter *painter, const cs_program *program,
                                         const cs_batch *batch, float (*rgba)[4]) {
-  if (is_ahead(painter) && cs_over_planes_ready(painter, program, batch, rgba))
+  if (is_ahead(painter) && cs_over_channels_ready(painter, program, batch, rgba))
     return CELSPAN_OK;
   return batch_colours(painter, program, batch, rgba);
 }
@@ -247,7 +247,7 @@ celspan_status cs_painter_batch_codes(cs_painter *painter, const cs_program *pro
     cs_over_bare_codes(painter->isa, painter->stack, &over, codes);
     return CELSPAN_OK;
   }
-  if (cs_over_planes_codes(painter, program, batch, codes))
+  if (cs_over_channels_codes(painter, program, batch, codes))
     return CELSPAN_OK;
   float rgba[CS_OVER_ROW_BATCH][4];
   CS_TRY(cs_painter_batch_colours(painter, program, batch, rgba));
@@ -310,7 +310,7 @@ celspan_status cs_painter_program_colours(cs_painter *painter, const cs_program 
   if (batch.count <= 0)
     return CELSPAN_OK;
   if (is_ahead(painter) && batch.count <= CS_FEW_PIXELS &&
-      cs_over_planes_ready(painter, program, &batch, rgba))
+      cs_over_channels_ready(painter, program, &batch, rgba))
     return CELSPAN_OK;
   if (batch.count <= CS_FEW_PIXELS && cs_few_fits(painter->stack, program))
     return cs_few_colours(painter, program, run, rgba);
@@ -331,7 +331,7 @@ celspan_status cs_painter_program_colours(cs_painter *painter, const cs_program 
 void cs_painter_ahead(cs_painter *painter, const cs_cell *cell, cs_run run) {
   const cs_program program = cs_composer_program(painter->composer, cell);
   if (painter->ahead)
-    cs_over_planes_prepare(painter, &program, run);
+    cs_over_channels_prepare(painter, &program, run);
 }
 
 celspan_status cs_painter_colours(cs_painter *painter, const cs_cell *cell, cs_run run,

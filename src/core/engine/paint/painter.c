@@ -28,8 +28,8 @@ celspan_status cs_painter_init(cs_painter *painter, celspan_context *context, co
   if (stack->shade_count == 0)
     return CELSPAN_OK;
   CS_TRY(allocate(painter, &painter->steady, stack->shade_count, sizeof(cs_painter_steady)));
-  const bool may_fold = stack->shade_count > 1 && !stack->has_root; /* over_planes.h */
-  CS_TRY(allocate(painter, &painter->ahead, may_fold ? 2 : 0, sizeof(cs_over_planes_ahead)));
+  const bool may_fold = stack->shade_count > 1 && !stack->has_root; /* over_channels.h */
+  CS_TRY(allocate(painter, &painter->ahead, may_fold ? 2 : 0, sizeof(cs_over_channels_ahead)));
   return cs_gradient_tables_create(context, stack, painter->isa, &painter->scratch,
                                    &painter->gradients);
 }

@@ -84,7 +84,7 @@ typedef struct cs_painter {
   cs_defocused_view *defocused;
   cs_painter_steady *steady;            /* one a shade */
   struct cs_gradient_tables *gradients; /* NULL without formulas: gradient_table.h */
-  cs_over_planes_ahead *ahead;          /* two, or NULL: ahead.h */
+  cs_over_channels_ahead *ahead;        /* two, or NULL: ahead.h */
   int next_ahead;                       /* which of the two is replaced next */
   cs_copies_plan *copies;               /* NULL without pictures: copies.c */
   cs_arena scratch;                     /* of one run */

@@ -289,7 +289,7 @@ celspan_status celspan_file_sink_create(celspan_context *context, const char *pa
 bool cs_sink_shares(const celspan_sink *sink, cs_shares *out) {
   const celspan_sink *outer = open_guard(sink), *inner = cs_coder_sink_inner(outer);
   *out = (cs_shares){.rows = 0};
-  if (inner->row && !cs_memory_sink_shares(inner, out) && !cs_planes_sink_shares(inner, out) &&
+  if (inner->row && !cs_memory_sink_shares(inner, out) && !cs_ycc_sink_shares(inner, out) &&
       !cs_png_sink_shares(inner, out) && !cs_span_sink_shares(inner, out))
     return false;
   cs_coder_sink_shares(outer, out);
@@ -299,7 +299,7 @@ bool cs_sink_shares(const celspan_sink *sink, cs_shares *out) {
 const cs_coder *cs_sink_coder(const celspan_sink *sink) {
   const cs_coder *coder = cs_coder_sink_own(sink);
   coder = coder ? coder : cs_memory_sink_coder(sink);
-  coder = coder ? coder : cs_planes_sink_coder(sink);
+  coder = coder ? coder : cs_ycc_sink_coder(sink);
   return coder && coder->coding.depth != CELSPAN_DEPTH_FLOAT && !coder->coding.convert ? coder
                                                                                        : NULL;
 }

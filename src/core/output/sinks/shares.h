@@ -47,7 +47,7 @@ typedef struct cs_shares {
 /* How each kind of sink fills its shares; false: the sink, which has begun, is of another kind.
  * cs_sink_shares calls all these functions. */
 bool cs_memory_sink_shares(const celspan_sink *sink, cs_shares *out);
-bool cs_planes_sink_shares(const celspan_sink *sink, cs_shares *out);
+bool cs_ycc_sink_shares(const celspan_sink *sink, cs_shares *out);
 bool cs_png_sink_shares(const celspan_sink *sink, cs_shares *out);
 bool cs_span_sink_shares(const celspan_sink *sink, cs_shares *out);
 /* The sink for which this one codes (output/sinks/coder.h); any other sink is its own. */
@@ -58,7 +58,7 @@ void cs_coder_sink_shares(const celspan_sink *sink, cs_shares *shares);
  * cs_sink_coder calls all these functions. */
 const struct cs_coder *cs_coder_sink_own(const celspan_sink *sink);
 const struct cs_coder *cs_memory_sink_coder(const celspan_sink *sink);
-const struct cs_coder *cs_planes_sink_coder(const celspan_sink *sink);
+const struct cs_coder *cs_ycc_sink_coder(const celspan_sink *sink);
 /* Whether the sink, which has begun, can receive rows in shares. A sink without `row` always
  * can. */
 bool cs_sink_shares(const celspan_sink *sink, cs_shares *out);

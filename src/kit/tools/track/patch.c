@@ -14,30 +14,30 @@ enum { MOST_STEPS = 25, WIDE_SIDE = CS_PATCH_SIDE + 2 };
 
 /* Whether a square of `radius` around the place lies in the picture, including the pixels that are
  * blended in on its right and below it. */
-static bool is_inside(const cs_plane *plane, const cs_patch_place *place, int radius) {
+static bool is_inside(const cs_grey *grey, const cs_patch_place *place, int radius) {
   double dx = (fabs(place->a) + fabs(place->b)) * radius;
   double dy = (fabs(place->c) + fabs(place->d)) * radius;
-  return place->x - dx >= 0 && place->x + dx < plane->width - 1 && place->y - dy >= 0 &&
-         place->y + dy < plane->height - 1;
+  return place->x - dx >= 0 && place->x + dx < grey->width - 1 && place->y - dy >= 0 &&
+         place->y + dy < grey->height - 1;
 }
 
 /* The value at a place inside the picture, mixed of four pixels. */
-static float sample(const cs_plane *plane, double x, double y) {
+static float sample(const cs_grey *grey, double x, double y) {
   int32_t column = (int32_t)x, row = (int32_t)y;
   float u = (float)(x - column), v = (float)(y - row);
-  const float *upper = plane->values + (size_t)row * (size_t)plane->width + column;
-  const float *lower = upper + plane->width;
+  const float *upper = grey->values + (size_t)row * (size_t)grey->width + column;
+  const float *lower = upper + grey->width;
   float above = upper[0] + u * (upper[1] - upper[0]);
   float below = lower[0] + u * (lower[1] - lower[0]);
   return above + v * (below - above);
 }
 
 /* A square of pixels at a place inside the picture. */
-static void sample_square(const cs_plane *plane, const cs_patch_place *place, int radius,
+static void sample_square(const cs_grey *grey, const cs_patch_place *place, int radius,
                           float *out) {
   for (int v = -radius; v <= radius; v++)
     for (int u = -radius; u <= radius; u++)
-      *out++ = sample(plane, place->x + place->a * u + place->b * v,
+      *out++ = sample(grey, place->x + place->a * u + place->b * v,
                       place->y + place->c * u + place->d * v);
 }
 
@@ -86,11 +86,11 @@ static bool invert_slopes(cs_patch *patch) {
   return true;
 }
 
-bool cs_patch_take(const cs_plane *plane, const cs_patch_place *place, cs_patch *out) {
+bool cs_patch_take(const cs_grey *grey, const cs_patch_place *place, cs_patch *out) {
   float wide[WIDE_SIDE * WIDE_SIDE];
-  if (!is_inside(plane, place, CS_PATCH_RADIUS + 1))
+  if (!is_inside(grey, place, CS_PATCH_RADIUS + 1))
     return false;
-  sample_square(plane, place, CS_PATCH_RADIUS + 1, wide);
+  sample_square(grey, place, CS_PATCH_RADIUS + 1, wide);
   take_values(wide, out);
   out->deviation = centre_values(out->value);
   return out->deviation > LEAST_DEVIATION && invert_slopes(out);
@@ -123,13 +123,13 @@ static double correlation(const cs_patch *patch, const float *there, double devi
   return sum / (CS_PATCH_COUNT * patch->deviation * deviation);
 }
 
-bool cs_patch_find(const cs_patch *patch, const cs_plane *plane, cs_patch_place *place,
+bool cs_patch_find(const cs_patch *patch, const cs_grey *grey, cs_patch_place *place,
                    double *likeness) {
   float there[CS_PATCH_COUNT];
   for (int i = 0; i < MOST_STEPS; i++) {
-    if (!is_inside(plane, place, CS_PATCH_RADIUS))
+    if (!is_inside(grey, place, CS_PATCH_RADIUS))
       return false;
-    sample_square(plane, place, CS_PATCH_RADIUS, there);
+    sample_square(grey, place, CS_PATCH_RADIUS, there);
     double deviation = centre_values(there), step[2];
     if (deviation < LEAST_DEVIATION)
       return false;
@@ -145,18 +145,17 @@ bool cs_patch_find(const cs_patch *patch, const cs_plane *plane, cs_patch_place 
 
 /* The similarity of a patch and the pixels at a place; -1 if the place is not in the picture, or
  * its pixels are flat. */
-static double likeness_at(const cs_patch *patch, const cs_plane *plane,
-                          const cs_patch_place *place) {
+static double likeness_at(const cs_patch *patch, const cs_grey *grey, const cs_patch_place *place) {
   float there[CS_PATCH_COUNT];
-  if (!is_inside(plane, place, CS_PATCH_RADIUS))
+  if (!is_inside(grey, place, CS_PATCH_RADIUS))
     return -1;
-  sample_square(plane, place, CS_PATCH_RADIUS, there);
+  sample_square(grey, place, CS_PATCH_RADIUS, there);
   double deviation = centre_values(there);
   return deviation < LEAST_DEVIATION ? -1 : correlation(patch, there, deviation);
 }
 
-void cs_patch_search(const cs_patch *patch, const cs_plane *plane, int radius,
-                     cs_patch_place *place, double *likeness) {
+void cs_patch_search(const cs_patch *patch, const cs_grey *grey, int radius, cs_patch_place *place,
+                     double *likeness) {
   const cs_patch_place middle = *place;
   *likeness = -1;
   for (int dy = -radius; dy <= radius; dy++)
@@ -164,7 +163,7 @@ void cs_patch_search(const cs_patch *patch, const cs_plane *plane, int radius,
       cs_patch_place at = middle;
       at.x += dx;
       at.y += dy;
-      double alike = likeness_at(patch, plane, &at);
+      double alike = likeness_at(patch, grey, &at);
       if (alike > *likeness) {
         *likeness = alike;
         *place = at;

@@ -11,7 +11,7 @@
  */
 #pragma once
 
-#include "tools/track/plane.h"
+#include "tools/track/grey.h"
 
 enum {
   CS_PATCH_RADIUS = 9,
@@ -34,14 +34,14 @@ typedef struct cs_patch {
 } cs_patch;
 
 /* False if the patch is not wholly in the picture, or has no texture in one direction. */
-bool cs_patch_take(const cs_plane *plane, const cs_patch_place *place, cs_patch *out);
+bool cs_patch_take(const cs_grey *grey, const cs_patch_place *place, cs_patch *out);
 /* Moves the middle of `place` to the place where the patch is found. likeness: the correlation
  * there, -1..1. False if it leaves the picture or does not settle. */
-bool cs_patch_find(const cs_patch *patch, const cs_plane *plane, cs_patch_place *place,
+bool cs_patch_find(const cs_patch *patch, const cs_grey *grey, cs_patch_place *place,
                    double *likeness);
 
 /* The same over larger distances: tries all whole offsets up to `radius` pixels, and moves the
  * middle by the offset at which the pixels are most similar. likeness: at this offset; -1 if no
  * offset is in the picture. */
-void cs_patch_search(const cs_patch *patch, const cs_plane *plane, int radius,
-                     cs_patch_place *place, double *likeness);
+void cs_patch_search(const cs_patch *patch, const cs_grey *grey, int radius, cs_patch_place *place,
+                     double *likeness);

@@ -20,9 +20,9 @@
 #include "celspan/track.h"
 #include "inside/description.h"
 #include "inside/number.h"
+#include "tools/track/grey.h"
 #include "tools/track/motion.h"
 #include "tools/track/patch.h"
-#include "tools/track/plane.h"
 
 CS_DESCRIBE(celspan_tracker_desc, region, )
 
@@ -43,7 +43,7 @@ enum { SEARCHED_CORNERS = 60, SEARCH_RADIUS = 14 };
 struct celspan_tracker {
   celspan_context *context;
   celspan_motion model;
-  cs_plane_levels first;
+  cs_grey_levels first;
   size_t count; /* of corners */
   celspan_point corners[CS_FEATURES_MOST];
   cs_patch *patches[CS_PLANE_LEVELS];               /* by level, `count` of each */
@@ -63,8 +63,8 @@ static bool place_patch(const celspan_matrix *matrix, celspan_point corner, int3
   if (!cs_motion_apply(matrix, corner, &there))
     return false;
   double w = m[6] * corner.x + m[7] * corner.y + m[8];
-  *out = (cs_patch_place){.x = cs_plane_down(there.x, level),
-                          .y = cs_plane_down(there.y, level),
+  *out = (cs_patch_place){.x = cs_grey_down(there.x, level),
+                          .y = cs_grey_down(there.y, level),
                           .a = (m[0] - there.x * m[6]) / w,
                           .b = (m[1] - there.x * m[7]) / w,
                           .c = (m[3] - there.y * m[6]) / w,
@@ -75,15 +75,15 @@ static bool place_patch(const celspan_matrix *matrix, celspan_point corner, int3
 
 /* Finds a corner's patch from level `coarsest` down to level 0. place: before the call, a guess at
  * level 0; after it, the place that was found. */
-static bool find_corner(const celspan_tracker *tracker, const cs_plane_levels *frame, size_t i,
+static bool find_corner(const celspan_tracker *tracker, const cs_grey_levels *frame, size_t i,
                         int32_t coarsest, cs_patch_place *place) {
   double likeness = 0;
   for (int32_t level = coarsest; level >= 0; level--) {
     if (level >= frame->count || level >= tracker->first.count || !tracker->is_patch[level][i])
       continue;
     cs_patch_place there = *place;
-    there.x = cs_plane_down(place->x, level);
-    there.y = cs_plane_down(place->y, level);
+    there.x = cs_grey_down(place->x, level);
+    there.y = cs_grey_down(place->y, level);
     likeness = 0;
     bool is_found =
         cs_patch_find(&tracker->patches[level][i], &frame->levels[level], &there, &likeness);
@@ -91,15 +91,15 @@ static bool find_corner(const celspan_tracker *tracker, const cs_plane_levels *f
       return false;
     if (!is_found || likeness < 0.5)
       continue;
-    place->x = cs_plane_up(there.x, level);
-    place->y = cs_plane_up(there.y, level);
+    place->x = cs_grey_up(there.x, level);
+    place->y = cs_grey_up(there.y, level);
   }
   return likeness >= LEAST_LIKENESS;
 }
 
 /* Whether the search in the other direction leads back to the corner: the pixels that were found
  * are searched for in the first frame, from an equally distant guess. */
-static bool comes_back(const celspan_tracker *tracker, const cs_plane_levels *frame, size_t i,
+static bool comes_back(const celspan_tracker *tracker, const cs_grey_levels *frame, size_t i,
                        const cs_patch_place *guess, const cs_patch_place *found) {
   double determinant = found->a * found->d - found->b * found->c;
   cs_patch_place back = {.a = found->d / determinant,
@@ -120,18 +120,18 @@ static bool comes_back(const celspan_tracker *tracker, const cs_plane_levels *fr
 
 /* The pairs of corners and their places in the frame. in_frame: the number of corners that the
  * motion moves into the frame. */
-static size_t find_pairs(const celspan_tracker *tracker, const cs_plane_levels *frame,
+static size_t find_pairs(const celspan_tracker *tracker, const cs_grey_levels *frame,
                          const celspan_matrix *motion, int32_t coarsest, bool is_checked,
                          cs_motion_pair *pairs, size_t *in_frame) {
-  const cs_plane *plane = &frame->levels[0];
+  const cs_grey *grey = &frame->levels[0];
   size_t count = 0;
   *in_frame = 0;
   for (size_t i = 0; i < tracker->count; i++) {
     cs_patch_place guess, place;
     if (!place_patch(motion, tracker->corners[i], 0, &guess))
       continue;
-    *in_frame += guess.x >= CS_PATCH_RADIUS && guess.x < plane->width - CS_PATCH_RADIUS &&
-                 guess.y >= CS_PATCH_RADIUS && guess.y < plane->height - CS_PATCH_RADIUS;
+    *in_frame += guess.x >= CS_PATCH_RADIUS && guess.x < grey->width - CS_PATCH_RADIUS &&
+                 guess.y >= CS_PATCH_RADIUS && guess.y < grey->height - CS_PATCH_RADIUS;
     place = guess;
     if (!find_corner(tracker, frame, i, coarsest, &place) ||
         (is_checked && !comes_back(tracker, frame, i, &guess, &place)))
@@ -164,7 +164,7 @@ static bool move_guess(const celspan_tracker *tracker, const cs_motion_pair *fou
 }
 
 /* The motion, found from a guess; false if it is not reliable. */
-static bool follow_guess(const celspan_tracker *tracker, const cs_plane_levels *frame,
+static bool follow_guess(const celspan_tracker *tracker, const cs_grey_levels *frame,
                          celspan_matrix guess, celspan_sighting *out) {
   cs_motion_pair pairs[CS_FEATURES_MOST];
   cs_motion_verdict verdict;
@@ -187,7 +187,7 @@ static bool follow_guess(const celspan_tracker *tracker, const cs_plane_levels *
 }
 
 /* Searches for some corners around their guessed places, and moves the guess there. */
-static bool search_around(const celspan_tracker *tracker, const cs_plane_levels *frame,
+static bool search_around(const celspan_tracker *tracker, const cs_grey_levels *frame,
                           celspan_matrix *guess) {
   cs_motion_pair pairs[SEARCHED_CORNERS];
   const int32_t level = (frame->count < tracker->first.count ? frame : &tracker->first)->count - 1;
@@ -199,7 +199,7 @@ static bool search_around(const celspan_tracker *tracker, const cs_plane_levels 
       continue;
     cs_patch_search(&tracker->patches[level][i], &frame->levels[level], SEARCH_RADIUS, &place,
                     &likeness);
-    celspan_point there = {cs_plane_up(place.x, level), cs_plane_up(place.y, level)};
+    celspan_point there = {cs_grey_up(place.x, level), cs_grey_up(place.y, level)};
     if (likeness >= LEAST_FAR_LIKENESS)
       pairs[count++] = (cs_motion_pair){tracker->corners[i], there, false};
   }
@@ -214,7 +214,7 @@ static celspan_matrix continued(const celspan_tracker *tracker) {
   return celspan_matrix_then(celspan_matrix_then(tracker->last, back), tracker->last);
 }
 
-static bool follow_guesses(const celspan_tracker *tracker, const cs_plane_levels *frame,
+static bool follow_guesses(const celspan_tracker *tracker, const cs_grey_levels *frame,
                            celspan_sighting *out) {
   celspan_matrix far_off = tracker->last;
   return follow_guess(tracker, frame, continued(tracker), out) ||
@@ -222,7 +222,7 @@ static bool follow_guesses(const celspan_tracker *tracker, const cs_plane_levels
          (search_around(tracker, frame, &far_off) && follow_guess(tracker, frame, far_off, out));
 }
 
-static void follow(celspan_tracker *tracker, const cs_plane_levels *frame, celspan_sighting *out) {
+static void follow(celspan_tracker *tracker, const cs_grey_levels *frame, celspan_sighting *out) {
   if (follow_guesses(tracker, frame, out)) {
     tracker->before_last = tracker->last;
     tracker->last = out->matrix;
@@ -284,8 +284,8 @@ static int32_t levels_for(const cs_features_region *region) {
 
 static void take_level(celspan_tracker *tracker, int32_t level) {
   for (size_t i = 0; i < tracker->count; i++) {
-    cs_patch_place place = {cs_plane_down(tracker->corners[i].x, level),
-                            cs_plane_down(tracker->corners[i].y, level),
+    cs_patch_place place = {cs_grey_down(tracker->corners[i].x, level),
+                            cs_grey_down(tracker->corners[i].y, level),
                             1,
                             0,
                             0,
@@ -310,8 +310,8 @@ static celspan_status fill(celspan_tracker *tracker, const celspan_luma *luma,
   cs_features_region region;
   CS_TRY(check_luma(context, luma));
   CS_TRY(check_region(context, desc, luma, &region));
-  CS_TRY(cs_plane_levels_make(context, luma->values, luma->width, luma->height, levels_for(&region),
-                              &tracker->first));
+  CS_TRY(cs_grey_levels_make(context, luma->values, luma->width, luma->height, levels_for(&region),
+                             &tracker->first));
   CS_TRY(cs_features_find(context, &tracker->first.levels[0], &region, tracker->corners,
                           &tracker->count));
   if (tracker->count < cs_motion_least(desc->model))
@@ -341,16 +341,16 @@ celspan_status celspan_tracker_follow(celspan_tracker *tracker, const celspan_lu
   celspan_sighting found = {0};
   CS_TRY(CS_RESULT(context, "track", celspan_sighting, &found, out));
   CS_TRY(check_luma(context, frame));
-  const cs_plane *first = &tracker->first.levels[0];
+  const cs_grey *first = &tracker->first.levels[0];
   if (frame->width != first->width || frame->height != first->height)
     return cs_fail(context, CELSPAN_BAD_ARGUMENT,
                    "track: the frame has %d x %d pixels, and the first one %d x %d", frame->width,
                    frame->height, first->width, first->height);
-  cs_plane_levels planes;
-  CS_TRY(cs_plane_levels_make(context, frame->values, frame->width, frame->height,
-                              tracker->first.count, &planes));
-  follow(tracker, &planes, &found);
-  cs_plane_levels_finish(&planes);
+  cs_grey_levels levels;
+  CS_TRY(cs_grey_levels_make(context, frame->values, frame->width, frame->height,
+                             tracker->first.count, &levels));
+  follow(tracker, &levels, &found);
+  cs_grey_levels_finish(&levels);
   return CS_RESULT(context, "track", celspan_sighting, &found, out);
 }
 
@@ -364,6 +364,6 @@ void celspan_tracker_destroy(celspan_tracker *tracker) {
   cs_memory *memory = tracker->context->memory;
   for (int32_t level = 0; level < CS_PLANE_LEVELS; level++)
     cs_mem_free(memory, tracker->patches[level], tracker->count * sizeof(cs_patch));
-  cs_plane_levels_finish(&tracker->first);
+  cs_grey_levels_finish(&tracker->first);
   cs_mem_free(memory, tracker, sizeof *tracker);
 }

@@ -14,30 +14,30 @@
 
 enum { CS_PLANE_LEVELS = 6 };
 
-typedef struct cs_plane {
+typedef struct cs_grey {
   int32_t width, height;
   float *values; /* rows from top to bottom, `width` each */
-} cs_plane;
+} cs_grey;
 
-typedef struct cs_plane_levels {
+typedef struct cs_grey_levels {
   cs_memory *memory;
   int32_t count; /* of levels */
-  cs_plane levels[CS_PLANE_LEVELS];
-} cs_plane_levels;
+  cs_grey levels[CS_PLANE_LEVELS];
+} cs_grey_levels;
 
 /* values: width x height, copied. count: the wanted number of levels; there are fewer if one would
- * be narrower than 16 pixels. out: new, for cs_plane_levels_finish. Errors: NO_MEMORY. */
-CELSPAN_CHECKED celspan_status cs_plane_levels_make(celspan_context *context, const float *values,
-                                                    int32_t width, int32_t height, int32_t count,
-                                                    cs_plane_levels *out);
-void cs_plane_levels_finish(cs_plane_levels *planes); /* also if it is all zero */
+ * be narrower than 16 pixels. out: new, for cs_grey_levels_finish. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_grey_levels_make(celspan_context *context, const float *values,
+                                                   int32_t width, int32_t height, int32_t count,
+                                                   cs_grey_levels *out);
+void cs_grey_levels_finish(cs_grey_levels *levels); /* also if it is all zero */
 
 /* Converts a place on level 0 to a level, and in the other direction. */
-static inline double cs_plane_down(double at, int32_t level) {
+static inline double cs_grey_down(double at, int32_t level) {
   double scale = 1.0 / (double)(1 << level);
   return (at + 0.5) * scale - 0.5;
 }
-static inline double cs_plane_up(double at, int32_t level) {
+static inline double cs_grey_up(double at, int32_t level) {
   double scale = (double)(1 << level);
   return (at + 0.5) * scale - 0.5;
 }
@@ -62,6 +62,6 @@ typedef struct cs_features_region {
 
 /* Finds the strongest corners, spread over the region. out: room for CS_FEATURES_MOST. Errors:
  * NO_MEMORY. */
-CELSPAN_CHECKED celspan_status cs_features_find(celspan_context *context, const cs_plane *plane,
+CELSPAN_CHECKED celspan_status cs_features_find(celspan_context *context, const cs_grey *grey,
                                                 const cs_features_region *region,
                                                 celspan_point *out, size_t *count);

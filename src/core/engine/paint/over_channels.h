@@ -22,32 +22,35 @@
 #include "engine/paint/painter.h"
 
 /* Whether a program is folded so. It has several gradients: one alone is read from a table. */
-bool cs_over_planes_fits(const cs_stack *stack, const cs_program *program);
+bool cs_over_channels_fits(const cs_stack *stack, const cs_program *program);
 /* Folds a run ahead, if the program is folded so and neither it nor the run is long. This function
  * and the last one: only where the painter has room for what is folded ahead. */
-void cs_over_planes_prepare(cs_painter *painter, const cs_program *program, cs_run run);
+void cs_over_channels_prepare(cs_painter *painter, const cs_program *program, cs_run run);
 
 /* The colours of a batch, premultiplied RGBA, and its codes, folded ahead or not. False: the
  * program is not folded so. */
-bool cs_over_planes_colours(cs_painter *painter, const cs_program *program, const cs_batch *batch,
-                            float (*rgba)[4]);
-bool cs_over_planes_codes(cs_painter *painter, const cs_program *program, const cs_batch *batch,
-                          unsigned char *codes);
+bool cs_over_channels_colours(cs_painter *painter, const cs_program *program, const cs_batch *batch,
+                              float (*rgba)[4]);
+bool cs_over_channels_codes(cs_painter *painter, const cs_program *program, const cs_batch *batch,
+                            unsigned char *codes);
 /* The colours where they have been folded ahead. False: they have not. */
-bool cs_over_planes_ready(const cs_painter *painter, const cs_program *program,
-                          const cs_batch *batch, float (*rgba)[4]);
+bool cs_over_channels_ready(const cs_painter *painter, const cs_program *program,
+                            const cs_batch *batch, float (*rgba)[4]);
 
-/* ---- over_planes_wide.c */
+/* ---- over_channels_wide.c */
 
-CS_WIDE_DECLARE(void, cs_over_planes_clear, (cs_over_planes * planes, int32_t count));
-CS_WIDE_DECLARE(void, cs_over_planes_add_flat, (cs_over_planes * planes, const cs_over_pair *lit));
-CS_WIDE_DECLARE(void, cs_over_planes_add_light, (cs_over_planes * planes, const float light[4]));
+CS_WIDE_DECLARE(void, cs_over_channels_clear, (cs_over_channels * pixels, int32_t count));
+CS_WIDE_DECLARE(void, cs_over_channels_add_flat,
+                (cs_over_channels * pixels, const cs_over_pair *lit));
+CS_WIDE_DECLARE(void, cs_over_channels_add_light,
+                (cs_over_channels * pixels, const float light[4]));
 /* Multiplies light by the light of a front light, as cs_over_row_light_group. */
-CS_WIDE_DECLARE(void, cs_over_planes_light, (cs_over_planes * planes, const cs_over_planes *front));
+CS_WIDE_DECLARE(void, cs_over_channels_light,
+                (cs_over_channels * pixels, const cs_over_channels *front));
 /* Adds a layer with a gradient, whose pixels are those of the batch. */
-CS_WIDE_DECLARE(void, cs_over_planes_add_shade,
-                (cs_over_planes * planes, const cs_layer *layer, const cs_shade *shade,
+CS_WIDE_DECLARE(void, cs_over_channels_add_shade,
+                (cs_over_channels * pixels, const cs_layer *layer, const cs_shade *shade,
                  const cs_batch *batch));
 /* 8-bit sRGB of `count` pixels from a first one on. */
-CS_WIDE_DECLARE(void, cs_over_planes_to_codes,
-                (const cs_over_planes *planes, int32_t first, int32_t count, unsigned char *out));
+CS_WIDE_DECLARE(void, cs_over_channels_to_codes,
+                (const cs_over_channels *pixels, int32_t first, int32_t count, unsigned char *out));

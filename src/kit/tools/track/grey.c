@@ -1,4 +1,4 @@
-#include "tools/track/plane.h"
+#include "tools/track/grey.h"
 
 #include <math.h>
 #include <string.h>
@@ -9,12 +9,12 @@
 enum { LEAST_SIDE = 16 };
 
 static celspan_status allocate(celspan_context *context, int32_t width, int32_t height,
-                               cs_plane_levels *planes) {
+                               cs_grey_levels *levels) {
   size_t count = (size_t)width * (size_t)height;
-  float *values = cs_mem_array(planes->memory, count, sizeof *values);
+  float *values = cs_mem_array(levels->memory, count, sizeof *values);
   if (!values)
     return cs_fail_memory(context);
-  planes->levels[planes->count++] = (cs_plane){width, height, values};
+  levels->levels[levels->count++] = (cs_grey){width, height, values};
   return CELSPAN_OK;
 }
 
@@ -28,7 +28,7 @@ static float halved(const float *line, int32_t size, ptrdiff_t stride, int32_t i
   return (outer + 3 * inner) / 8;
 }
 
-static void halve_row(const cs_plane *from, int32_t y, float *lines, cs_plane *to) {
+static void halve_row(const cs_grey *from, int32_t y, float *lines, cs_grey *to) {
   const int32_t width = from->width;
   for (int32_t x = 0; x < width; x++)
     lines[x] = halved(from->values + x, from->height, width, y);
@@ -36,47 +36,47 @@ static void halve_row(const cs_plane *from, int32_t y, float *lines, cs_plane *t
     to->values[(size_t)y * (size_t)to->width + (size_t)x] = halved(lines, width, 1, x);
 }
 
-static celspan_status append_level(celspan_context *context, cs_plane_levels *planes) {
-  const cs_plane from = planes->levels[planes->count - 1];
-  float *lines = cs_mem_array(planes->memory, (size_t)from.width, sizeof *lines);
+static celspan_status append_level(celspan_context *context, cs_grey_levels *levels) {
+  const cs_grey from = levels->levels[levels->count - 1];
+  float *lines = cs_mem_array(levels->memory, (size_t)from.width, sizeof *lines);
   if (!lines)
     return cs_fail_memory(context);
-  celspan_status status = allocate(context, from.width / 2, from.height / 2, planes);
+  celspan_status status = allocate(context, from.width / 2, from.height / 2, levels);
   if (status == CELSPAN_OK)
     for (int32_t y = 0; y < from.height / 2; y++)
-      halve_row(&from, y, lines, &planes->levels[planes->count - 1]);
-  cs_mem_free(planes->memory, lines, (size_t)from.width * sizeof *lines);
+      halve_row(&from, y, lines, &levels->levels[levels->count - 1]);
+  cs_mem_free(levels->memory, lines, (size_t)from.width * sizeof *lines);
   return status;
 }
 
 static celspan_status fill(celspan_context *context, const float *values, int32_t width,
-                           int32_t height, int32_t count, cs_plane_levels *planes) {
-  CS_TRY(allocate(context, width, height, planes));
-  memcpy(planes->levels[0].values, values, (size_t)width * (size_t)height * sizeof *values);
-  for (int32_t side = width < height ? width : height; planes->count < count; side /= 2) {
+                           int32_t height, int32_t count, cs_grey_levels *levels) {
+  CS_TRY(allocate(context, width, height, levels));
+  memcpy(levels->levels[0].values, values, (size_t)width * (size_t)height * sizeof *values);
+  for (int32_t side = width < height ? width : height; levels->count < count; side /= 2) {
     if (side / 2 < LEAST_SIDE)
       break;
-    CS_TRY(append_level(context, planes));
+    CS_TRY(append_level(context, levels));
   }
   return CELSPAN_OK;
 }
 
-celspan_status cs_plane_levels_make(celspan_context *context, const float *values, int32_t width,
-                                    int32_t height, int32_t count, cs_plane_levels *out) {
-  *out = (cs_plane_levels){.memory = context->memory};
+celspan_status cs_grey_levels_make(celspan_context *context, const float *values, int32_t width,
+                                   int32_t height, int32_t count, cs_grey_levels *out) {
+  *out = (cs_grey_levels){.memory = context->memory};
   celspan_status status = fill(context, values, width, height, count, out);
   if (status != CELSPAN_OK)
-    cs_plane_levels_finish(out);
+    cs_grey_levels_finish(out);
   return status;
 }
 
-void cs_plane_levels_finish(cs_plane_levels *planes) {
-  for (int32_t i = 0; i < planes->count; i++) {
-    const cs_plane *plane = &planes->levels[i];
-    cs_mem_free(planes->memory, plane->values,
-                (size_t)plane->width * (size_t)plane->height * sizeof *plane->values);
+void cs_grey_levels_finish(cs_grey_levels *levels) {
+  for (int32_t i = 0; i < levels->count; i++) {
+    const cs_grey *grey = &levels->levels[i];
+    cs_mem_free(levels->memory, grey->values,
+                (size_t)grey->width * (size_t)grey->height * sizeof *grey->values);
   }
-  *planes = (cs_plane_levels){0};
+  *levels = (cs_grey_levels){0};
 }
 
 /* ---------------------------------------------------------------- features */
@@ -102,11 +102,11 @@ static inline bool precedes(const candidate *a, const candidate *b) {
 CS_SORT_DEFINE(sort_candidates, candidate, precedes)
 
 /* The smaller eigenvalue around a pixel that is at least SQUARE + 1 pixels from the border. */
-static float strength_at(const cs_plane *plane, int32_t x, int32_t y) {
+static float strength_at(const cs_grey *grey, int32_t x, int32_t y) {
   float xx = 0, xy = 0, yy = 0;
-  const ptrdiff_t stride = plane->width;
+  const ptrdiff_t stride = grey->width;
   for (int32_t v = y - SQUARE; v <= y + SQUARE; v++) {
-    const float *row = plane->values + (ptrdiff_t)v * stride;
+    const float *row = grey->values + (ptrdiff_t)v * stride;
     for (int32_t u = x - SQUARE; u <= x + SQUARE; u++) {
       float slope_x = (row[u + 1] - row[u - 1]) / 2;
       float slope_y = (row[u + stride] - row[u - stride]) / 2;
@@ -129,14 +129,14 @@ static float strength_in(const map *m, int32_t x, int32_t y) {
   return m->strengths[(size_t)y * (size_t)m->width + (size_t)x];
 }
 
-static void measure(const cs_plane *plane, const cs_features_region *region, map *m) {
+static void measure(const cs_grey *grey, const cs_features_region *region, map *m) {
   for (int32_t y = 0; y < m->height; y++)
     for (int32_t x = 0; x < m->width; x++) {
       int32_t column = m->x0 + x, row = m->y0 + y;
       const uint8_t *mask = region->mask;
-      bool is_wanted = !mask || mask[(size_t)row * (size_t)plane->width + (size_t)column];
+      bool is_wanted = !mask || mask[(size_t)row * (size_t)grey->width + (size_t)column];
       m->strengths[(size_t)y * (size_t)m->width + (size_t)x] =
-          is_wanted ? strength_at(plane, column, row) : 0;
+          is_wanted ? strength_at(grey, column, row) : 0;
     }
 }
 
@@ -185,12 +185,12 @@ static int32_t clamp(int32_t value, int32_t low, int32_t high) {
 }
 
 /* The part of the region in which slopes can be summed around each pixel. */
-static map map_of(const cs_plane *plane, const cs_features_region *region) {
+static map map_of(const cs_grey *grey, const cs_features_region *region) {
   enum { BORDER = SQUARE + 1 };
-  int32_t x0 = clamp(region->x0, BORDER, plane->width),
-          x1 = clamp(region->x1, 0, plane->width - BORDER);
-  int32_t y0 = clamp(region->y0, BORDER, plane->height),
-          y1 = clamp(region->y1, 0, plane->height - BORDER);
+  int32_t x0 = clamp(region->x0, BORDER, grey->width),
+          x1 = clamp(region->x1, 0, grey->width - BORDER);
+  int32_t y0 = clamp(region->y0, BORDER, grey->height),
+          y1 = clamp(region->y1, 0, grey->height - BORDER);
   return (map){x0, y0, x1 > x0 ? x1 - x0 : 0, y1 > y0 ? y1 - y0 : 0, NULL};
 }
 
@@ -208,16 +208,16 @@ static celspan_status choose(celspan_context *context, const map *m, celspan_poi
   return status;
 }
 
-celspan_status cs_features_find(celspan_context *context, const cs_plane *plane,
+celspan_status cs_features_find(celspan_context *context, const cs_grey *grey,
                                 const cs_features_region *region, celspan_point *out,
                                 size_t *count) {
-  map m = map_of(plane, region);
+  map m = map_of(grey, region);
   size_t size = (size_t)m.width * (size_t)m.height;
   *count = 0;
   if (size == 0)
     return CELSPAN_OK;
   CS_TRY(CS_MAKE(context, m.strengths, size));
-  measure(plane, region, &m);
+  measure(grey, region, &m);
   celspan_status status = choose(context, &m, out, count);
   cs_mem_free(context->memory, m.strengths, size * sizeof *m.strengths);
   return status;

@@ -10,15 +10,15 @@
 
 #include "output/sinks/coder.h"
 
-typedef struct cs_planes {
+typedef struct cs_ycc {
   cs_coder coder;       /* of 8 bits */
   bool is_halved;       /* 4:2:0 */
   unsigned char *bytes; /* of all planes; borrowed */
   int32_t width, height;
   uint32_t *rows; /* two rows of the thread that began the sink */
-} cs_planes;
+} cs_ycc;
 
 /* Bytes of all planes. */
-size_t cs_planes_size(int32_t width, int32_t height, bool is_halved);
-/* planes: all fields up to `bytes` are set; must live as long as the sink. */
-celspan_sink cs_planes_sink(cs_planes *planes);
+size_t cs_ycc_size(int32_t width, int32_t height, bool is_halved);
+/* ycc: all fields up to `bytes` are set; must live as long as the sink. */
+celspan_sink cs_ycc_sink(cs_ycc *ycc);

@@ -1,8 +1,9 @@
-/* engine/paint/over_planes.c: programs of gradients that dim all channels alike have the bits that
- * folding their paints gives, with every set of instructions, whatever pixels a batch has, also
+/* engine/paint/over_channels.c: programs of gradients that dim all channels alike have the bits
+ * that folding their paints gives, with every set of instructions, whatever pixels a batch has,
+ * also
  * under a front light with a shape.
  */
-#include "engine/paint/over_planes.h"
+#include "engine/paint/over_channels.h"
 
 #include "engine/paint/colours.h"
 #include "model/colour/srgb8.h"
@@ -139,7 +140,7 @@ static void check_batch(cs_painter *painter, const cs_program *program, const cs
 static bool is_ready(const cs_painter *painter, const cs_program *program, int32_t x0,
                      int32_t count, double y) {
   static float rgba[CS_OVER_ROW_BATCH][4];
-  return cs_over_planes_ready(painter, program, &(cs_batch){NULL, x0, count, y}, rgba);
+  return cs_over_channels_ready(painter, program, &(cs_batch){NULL, x0, count, y}, rgba);
 }
 
 /* What has been folded ahead is given for these pixels of this program, and is not folded again. */
@@ -147,10 +148,10 @@ static void check_ahead(cs_painter *painter, const cs_program *program, double y
                         const float (*wanted)[4]) {
   const int32_t x0 = 1 + random_below(&numbers, WIDTH - 20), x1 = x0 + 12, listed[] = {x0, x1 - 1};
   const cs_program shorter = {program->items + 1, NULL, program->length - 1};
-  cs_over_planes_prepare(painter, program, (cs_run){x0, x1, y});
-  cs_over_planes_prepare(painter, &shorter, (cs_run){x0, x1, y});
+  cs_over_channels_prepare(painter, program, (cs_run){x0, x1, y});
+  cs_over_channels_prepare(painter, &shorter, (cs_run){x0, x1, y});
   const uint64_t evaluations = painter->evaluations;
-  cs_over_planes_prepare(painter, program, (cs_run){x0 + 1, x1, y});
+  cs_over_channels_prepare(painter, program, (cs_run){x0 + 1, x1, y});
   check_batch(painter, program, &(cs_batch){NULL, x0, 12, y}, wanted);
   check_batch(painter, program, &(cs_batch){NULL, x0 + 5, 3, y}, wanted);
   CHECK(painter->evaluations == evaluations);
@@ -163,7 +164,7 @@ static void check_ahead(cs_painter *painter, const cs_program *program, double y
   CHECK(!is_ready(painter, &prefix, x0, 12, y));
   const cs_program other = {program->items + 2, NULL, program->length - 2};
   CHECK(!is_ready(painter, &other, x0, 12, y));
-  cs_over_planes_prepare(painter, &other, (cs_run){x0, x1, y});
+  cs_over_channels_prepare(painter, &other, (cs_run){x0, x1, y});
   CHECK(!is_ready(painter, program, x0, 12, y)); /* two at most */
 }
 
@@ -190,19 +191,19 @@ static void check_refusals(const cs_program *program) {
   cs_back_light near = {.below = LEAVES - 1};
   other.lights = &near;
   other.light_count = 1;
-  CHECK(!cs_over_planes_fits(&other, program)); /* a light between the layers */
+  CHECK(!cs_over_channels_fits(&other, program)); /* a light between the layers */
   other = stack;
   other.has_root = true;
-  CHECK(!cs_over_planes_fits(&other, program));
+  CHECK(!cs_over_channels_fits(&other, program));
   const cs_layer kept = layers[0];
   layers[0].group = kept.group == CS_STACK_NONE ? 0 : CS_STACK_NONE;
-  CHECK(!cs_over_planes_fits(&stack, program));
+  CHECK(!cs_over_channels_fits(&stack, program));
   layers[0] = kept;
   layers[0].role = CS_LAYER_BACK;
-  CHECK(!cs_over_planes_fits(&stack, program));
+  CHECK(!cs_over_channels_fits(&stack, program));
   layers[0] = kept;
   shades[0].is_even = false;
-  CHECK(!cs_over_planes_fits(&stack, program));
+  CHECK(!cs_over_channels_fits(&stack, program));
   shades[0].is_even = true;
 }
 
@@ -219,11 +220,11 @@ static void check_group_refusals(const cs_program *program) {
   others[5].grade = &grade;
   for (int i = 0; i < 6; i++) {
     groups[0] = others[i];
-    CHECK(!cs_over_planes_fits(&stack, program));
+    CHECK(!cs_over_channels_fits(&stack, program));
   }
   groups[0] = kept;
   stack.light_count = 1;
-  CHECK(!cs_over_planes_fits(&stack, program));
+  CHECK(!cs_over_channels_fits(&stack, program));
   stack.light_count = 0;
 }
 
@@ -244,7 +245,7 @@ int main(void) {
       make_group();
     CHECK(cs_composer_init(&composer, context, &stack, cs_painter_opacity(&painter)) == CELSPAN_OK);
     CHECK(cs_painter_init(&painter, context, composer.stack, &composer) == CELSPAN_OK);
-    CHECK(cs_over_planes_fits(&stack, &program));
+    CHECK(cs_over_channels_fits(&stack, &program));
     check_row(&painter, &program, random_between(&numbers, -20, 140));
     check_refusals(&program);
     if (stack.group_count > 0)

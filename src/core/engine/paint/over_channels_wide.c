@@ -1,43 +1,43 @@
-/* Loops over the registers of planes: see over_planes.h. */
-#include "engine/paint/over_planes.h"
+/* Loops over the registers of pixels: see over_channels.h. */
+#include "engine/paint/over_channels.h"
 
 #include "engine/paint/shade_stretch.h"
 #include "model/colour/srgb8_lanes.h"
 
-void CS_WIDE(cs_over_planes_clear)(cs_over_planes *planes, int32_t count) {
-  planes->count = count;
-  planes->keep = 1;
+void CS_WIDE(cs_over_channels_clear)(cs_over_channels *pixels, int32_t count) {
+  pixels->count = count;
+  pixels->keep = 1;
   for (int32_t k = 0; k < count; k += CS_WIDE_LANES) {
     for (int c = 0; c < 3; c++)
-      cs_wide_store(planes->light[c] + k, cs_wide_all(0));
-    cs_wide_store(planes->through + k, cs_wide_all(1));
+      cs_wide_store(pixels->light[c] + k, cs_wide_all(0));
+    cs_wide_store(pixels->through + k, cs_wide_all(1));
   }
 }
 
-void CS_WIDE(cs_over_planes_add_flat)(cs_over_planes *planes, const cs_over_pair *lit) {
-  for (int32_t k = 0; k < planes->count; k += CS_WIDE_LANES) {
-    const cs_wide through = cs_wide_load(planes->through + k);
+void CS_WIDE(cs_over_channels_add_flat)(cs_over_channels *pixels, const cs_over_pair *lit) {
+  for (int32_t k = 0; k < pixels->count; k += CS_WIDE_LANES) {
+    const cs_wide through = cs_wide_load(pixels->through + k);
     for (int c = 0; c < 3; c++) {
-      float *light = planes->light[c] + k;
+      float *light = pixels->light[c] + k;
       cs_wide_store(light, cs_wide_load(light) + through * lit->e[c]);
     }
-    cs_wide_store(planes->through + k, through * lit->t[0]);
+    cs_wide_store(pixels->through + k, through * lit->t[0]);
   }
 }
 
-void CS_WIDE(cs_over_planes_add_light)(cs_over_planes *planes, const float light[4]) {
-  for (int32_t k = 0; k < planes->count; k += CS_WIDE_LANES)
+void CS_WIDE(cs_over_channels_add_light)(cs_over_channels *pixels, const float light[4]) {
+  for (int32_t k = 0; k < pixels->count; k += CS_WIDE_LANES)
     for (int c = 0; c < 3; c++) {
-      float *to = planes->light[c] + k;
-      cs_wide_store(to, cs_wide_load(to) + cs_wide_load(planes->through + k) * light[c]);
+      float *to = pixels->light[c] + k;
+      cs_wide_store(to, cs_wide_load(to) + cs_wide_load(pixels->through + k) * light[c]);
     }
 }
 
-void CS_WIDE(cs_over_planes_light)(cs_over_planes *planes, const cs_over_planes *front) {
+void CS_WIDE(cs_over_channels_light)(cs_over_channels *pixels, const cs_over_channels *front) {
   const cs_wide brightest = cs_wide_all(CS_LAYER_BRIGHTEST);
-  for (int32_t k = 0; k < planes->count; k += CS_WIDE_LANES)
+  for (int32_t k = 0; k < pixels->count; k += CS_WIDE_LANES)
     for (int c = 0; c < 3; c++) {
-      float *light = planes->light[c] + k;
+      float *light = pixels->light[c] + k;
       const cs_wide lit = cs_wide_load(light) * cs_wide_load(front->light[c] + k);
       cs_wide_store(light, cs_wide_choose(lit > brightest, brightest, lit));
     }
@@ -113,19 +113,19 @@ static inline paints paints_of(const cs_shade_stretch *part) {
 /* Adds pixels of register k whose shares of the way along a stretch are known. is_lit, a constant
  * of each caller: light and fade change paints. mask: the lanes of these pixels; the others are
  * kept. */
-static inline void add_lanes(cs_over_planes *planes, size_t k, const paints *r,
+static inline void add_lanes(cs_over_channels *pixels, size_t k, const paints *r,
                              const cs_layer *layer, cs_wide share, cs_wide_int mask, bool is_lit) {
   const float fade = layer->fade;
-  const cs_wide through = cs_wide_load(planes->through + k);
+  const cs_wide through = cs_wide_load(pixels->through + k);
   for (int c = 0; c < 3; c++) {
-    float *light = planes->light[c] + k;
+    float *light = pixels->light[c] + k;
     const cs_wide before = cs_wide_load(light), s = r->s[c] + share * r->s_step[c];
     const cs_wide after = before + through * (is_lit ? layer->front[c] * (fade * s) : s);
     cs_wide_store(light, cs_wide_choose(mask, after, before));
   }
   const cs_wide t = r->t + share * r->t_step;
   const cs_wide after = through * (is_lit ? (1 - fade) + fade * t : t);
-  cs_wide_store(planes->through + k, cs_wide_choose(mask, after, through));
+  cs_wide_store(pixels->through + k, cs_wide_choose(mask, after, through));
 }
 
 static inline cs_wide shares_of(const cs_shade_stretch *part, const double *at) {
@@ -174,8 +174,8 @@ static inline bool are_shares(cs_wide shares) {
 
 /* Adds the registers from pixel k of the piece on that lie in a stretch as a whole, if its paints
  * change. Returns the pixel after them. */
-static inline size_t add_whole(cs_over_planes *planes, const piece *p, const cs_shade_stretch *part,
-                               size_t k, bool is_lit) {
+static inline size_t add_whole(cs_over_channels *pixels, const piece *p,
+                               const cs_shade_stretch *part, size_t k, bool is_lit) {
   const size_t first = (size_t)p->first, count = part->length != 0 ? (size_t)p->count : 0;
   const cs_shade_stretch own = *part; /* the compiler sees that nothing changes it */
   const paints r = paints_of(part);
@@ -183,14 +183,14 @@ static inline size_t add_whole(cs_over_planes *planes, const piece *p, const cs_
     const cs_wide shares = shares_of(&own, p->at + k);
     if (!are_shares(shares))
       break;
-    add_lanes(planes, first + k, &r, p->layer, shares, mask_of(ALL), is_lit);
+    add_lanes(pixels, first + k, &r, p->layer, shares, mask_of(ALL), is_lit);
   }
   return k;
 }
 
 /* Adds a register that lies in several stretches, the first of them perhaps a known one. Returns
  * the last. */
-static inline cs_shade_stretch add_mixed(cs_over_planes *planes, const piece *p,
+static inline cs_shade_stretch add_mixed(cs_over_channels *pixels, const piece *p,
                                          cs_shade_stretch part, size_t k, bool is_lit) {
   const double *at = p->at + k;
   for (unsigned rest = ALL, lanes; rest != 0; rest &= ~lanes) {
@@ -201,51 +201,51 @@ static inline cs_shade_stretch add_mixed(cs_over_planes *planes, const piece *p,
       lanes = (lanes_in(&part, at) | 1u << lane) & rest;
     }
     const paints r = paints_of(&part);
-    add_lanes(planes, (size_t)p->first + k, &r, p->layer, shares_of(&part, at), mask_of(lanes),
+    add_lanes(pixels, (size_t)p->first + k, &r, p->layer, shares_of(&part, at), mask_of(lanes),
               is_lit);
   }
   return part;
 }
 
 /* Whole registers: what lies in the lanes after the last pixel is not read. */
-static inline void add_piece(cs_over_planes *planes, piece *p, bool is_lit) {
+static inline void add_piece(cs_over_channels *pixels, piece *p, bool is_lit) {
   find_places(p);
   const size_t count = (size_t)p->count;
   cs_shade_stretch part = cs_shade_stretch_at(p->shade->texture, p->at[0]);
   for (size_t k = 0; k < count; k += CS_WIDE_LANES) {
-    k = add_whole(planes, p, &part, k, is_lit);
+    k = add_whole(pixels, p, &part, k, is_lit);
     if (k < count)
-      part = add_mixed(planes, p, part, k, is_lit);
+      part = add_mixed(pixels, p, part, k, is_lit);
   }
 }
 
-void CS_WIDE(cs_over_planes_add_shade)(cs_over_planes *planes, const cs_layer *layer,
-                                       const cs_shade *shade, const cs_batch *batch) {
+void CS_WIDE(cs_over_channels_add_shade)(cs_over_channels *pixels, const cs_layer *layer,
+                                         const cs_shade *shade, const cs_batch *batch) {
   piece p;
   p.layer = layer;
   p.shade = shade;
   p.batch = batch;
   p.first = 0;
   const bool is_lit = !cs_shade_is_bare(layer);
-  for (; p.first < planes->count; p.first += p.count) {
-    const int32_t left = planes->count - p.first;
+  for (; p.first < pixels->count; p.first += p.count) {
+    const int32_t left = pixels->count - p.first;
     p.count = left < CS_SHADE_PLACES ? left : CS_SHADE_PLACES;
     if (is_lit)
-      add_piece(planes, &p, true);
+      add_piece(pixels, &p, true);
     else
-      add_piece(planes, &p, false);
+      add_piece(pixels, &p, false);
   }
 }
 
-void CS_WIDE(cs_over_planes_to_codes)(const cs_over_planes *planes, int32_t first, int32_t count,
-                                      unsigned char *out) {
+void CS_WIDE(cs_over_channels_to_codes)(const cs_over_channels *pixels, int32_t first,
+                                        int32_t count, unsigned char *out) {
   for (int32_t k = 0; k < count; k += CS_WIDE_LANES) {
     cs_srgb8_planes colours;
     for (int c = 0; c < 3; c++)
-      colours.channels[c] = cs_wide_load(planes->light[c] + first + k);
-    colours.channels[3] = 1 - planes->keep * cs_wide_load(planes->through + first + k);
-    const cs_wide_int pixels = cs_srgb8_code_planes(&colours, false);
+      colours.channels[c] = cs_wide_load(pixels->light[c] + first + k);
+    colours.channels[3] = 1 - pixels->keep * cs_wide_load(pixels->through + first + k);
+    const cs_wide_int codes = cs_srgb8_code_planes(&colours, false);
     const int32_t left = count - k;
-    memcpy(out + 4 * (size_t)k, &pixels, 4 * (size_t)(left < CS_WIDE_LANES ? left : CS_WIDE_LANES));
+    memcpy(out + 4 * (size_t)k, &codes, 4 * (size_t)(left < CS_WIDE_LANES ? left : CS_WIDE_LANES));
   }
 }
