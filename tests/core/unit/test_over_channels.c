@@ -1,7 +1,6 @@
 /* engine/paint/over_channels.c: programs of gradients that dim all channels alike have the bits
  * that folding their paints gives, with every set of instructions, whatever pixels a batch has,
- * also
- * under a front light with a shape.
+ * also under a front light with a shape.
  */
 #include "engine/paint/over_channels.h"
 

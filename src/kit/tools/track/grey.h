@@ -12,7 +12,7 @@
 
 #include "inside/context.h"
 
-enum { CS_PLANE_LEVELS = 6 };
+enum { CS_GREY_LEVELS = 6 };
 
 typedef struct cs_grey {
   int32_t width, height;
@@ -22,7 +22,7 @@ typedef struct cs_grey {
 typedef struct cs_grey_levels {
   cs_memory *memory;
   int32_t count; /* of levels */
-  cs_grey levels[CS_PLANE_LEVELS];
+  cs_grey levels[CS_GREY_LEVELS];
 } cs_grey_levels;
 
 /* values: width x height, copied. count: the wanted number of levels; there are fewer if one would

@@ -46,8 +46,8 @@ struct celspan_tracker {
   cs_grey_levels first;
   size_t count; /* of corners */
   celspan_point corners[CS_FEATURES_MOST];
-  cs_patch *patches[CS_PLANE_LEVELS];               /* by level, `count` of each */
-  bool is_patch[CS_PLANE_LEVELS][CS_FEATURES_MOST]; /* whether there is a patch at that level */
+  cs_patch *patches[CS_GREY_LEVELS];               /* by level, `count` of each */
+  bool is_patch[CS_GREY_LEVELS][CS_FEATURES_MOST]; /* whether there is a patch at that level */
   /* the motions of the last two frames in which the region was found */
   celspan_matrix last, before_last;
 };
@@ -169,7 +169,7 @@ static bool follow_guess(const celspan_tracker *tracker, const cs_grey_levels *f
   cs_motion_pair pairs[CS_FEATURES_MOST];
   cs_motion_verdict verdict;
   size_t in_frame;
-  size_t count = find_pairs(tracker, frame, &guess, CS_PLANE_LEVELS - 1, false, pairs, &in_frame);
+  size_t count = find_pairs(tracker, frame, &guess, CS_GREY_LEVELS - 1, false, pairs, &in_frame);
   if (!move_guess(tracker, pairs, count, COARSE_TOLERANCE, &guess))
     return false;
   for (int32_t coarsest = 1; coarsest >= 0; coarsest--) {
@@ -277,7 +277,7 @@ static celspan_status check_region(celspan_context *context, const celspan_track
 static int32_t levels_for(const cs_features_region *region) {
   int32_t width = region->x1 - region->x0, height = region->y1 - region->y0, count = 1;
   for (int32_t side = width < height ? width : height;
-       count < CS_PLANE_LEVELS && side / 2 >= CS_PATCH_SIDE; side /= 2)
+       count < CS_GREY_LEVELS && side / 2 >= CS_PATCH_SIDE; side /= 2)
     count++;
   return count;
 }
@@ -362,7 +362,7 @@ void celspan_tracker_destroy(celspan_tracker *tracker) {
   if (!tracker)
     return;
   cs_memory *memory = tracker->context->memory;
-  for (int32_t level = 0; level < CS_PLANE_LEVELS; level++)
+  for (int32_t level = 0; level < CS_GREY_LEVELS; level++)
     cs_mem_free(memory, tracker->patches[level], tracker->count * sizeof(cs_patch));
   cs_grey_levels_finish(&tracker->first);
   cs_mem_free(memory, tracker, sizeof *tracker);
