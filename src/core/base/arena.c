@@ -4,7 +4,7 @@
 
 struct cs_arena_chunk {
   cs_arena_chunk *next;
-  size_t size; /* of the bytes after this header */
+  size_t size; /* the size of the bytes after this header */
   _Alignas(16) unsigned char bytes[];
 };
 

@@ -40,7 +40,7 @@ struct cs_cache_entry {
 
 typedef struct cs_cache_counts {
   uint64_t made, found; /* entries, since the cache was made */
-  size_t bytes;         /* of all entries now */
+  size_t bytes;         /* the bytes of all entries now */
 } cs_cache_counts;
 
 typedef struct cs_cache {

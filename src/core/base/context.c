@@ -15,7 +15,7 @@
  * as any value: it needs no reference count, which every value would have to change. */
 typedef struct cs_source {
   struct cs_source *next;
-  size_t size; /* of the whole structure */
+  size_t size; /* the size of the whole structure */
   char bytes[];
 } cs_source;
 

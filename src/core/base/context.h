@@ -42,7 +42,7 @@ typedef struct cs_memory {
   atomic_uint renders;     /* the number of frames that are rendered now */
   atomic_size_t beside;    /* bytes of the host, such as Lua's; not in `bytes` */
   size_t most_rendering;   /* the limit of `rendering`; 0: no limit */
-  cs_ceiling *ceiling;     /* of `bytes` and `beside` together; NULL: none; borrowed */
+  cs_ceiling *ceiling;     /* the ceiling of `bytes` and `beside` together; NULL: none; borrowed */
   /* Returns the account of this thread, which the host keeps; NULL: threads have no accounts. This
    * and the next two members are set before other threads use the memory. */
   cs_account *(*account)(void);
@@ -73,7 +73,7 @@ enum { CS_ERROR_SIZE = 1024 }; /* bytes of the sentence that describes a failure
 typedef struct cs_mark { /* see base/mark.h */
   struct cs_text *name;  /* NULL: none */
   const char *source;    /* NULL: not known; else the memory's */
-  int32_t line;          /* of the source, from 1; 0: not known */
+  int32_t line;          /* the line of the source, from 1; 0: not known */
   /* the lines that called this line: a number of lua/bind/named.h; 0: not known */
   uint32_t callers;
 } cs_mark;

@@ -61,7 +61,7 @@ static uint64_t number_in(const char *folder, const char *name) {
 
 typedef struct lines {
   int file;
-  off_t offset; /* of the file's next bytes */
+  off_t offset; /* the offset of the file's next bytes */
   size_t begin, size;
   char bytes[TEXT];
 } lines;
@@ -107,7 +107,7 @@ static void each_line(const char *folder, const char *name, void (*take)(void *u
 /* ---------------------------------------------------------------- places */
 
 typedef struct place {
-  char path[FOLDER];  /* of the group in the hierarchy; "": the process is in none */
+  char path[FOLDER];  /* the path of the group in the hierarchy; "": the process is in none */
   char mount[FOLDER]; /* where the hierarchy is mounted; "": it is not mounted */
   char group[FOLDER]; /* the folder of the group */
   bool is_below;      /* the path of the group is below the mount's root */

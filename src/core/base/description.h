@@ -16,7 +16,7 @@
 typedef struct cs_description {
   const char *type;
   const void *defaults;
-  size_t size;   /* of the whole description */
+  size_t size;   /* the size of the whole description */
   size_t needed; /* bytes up to the end of the last field that must be given */
 } cs_description;
 

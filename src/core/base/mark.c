@@ -6,7 +6,7 @@
 struct cs_text {
   atomic_size_t references;
   cs_memory *memory;
-  size_t size; /* of the whole text */
+  size_t size; /* the size of the whole text */
   char bytes[];
 };
 

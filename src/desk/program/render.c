@@ -26,7 +26,7 @@
 #include "writers/apart/apart.h"
 
 typedef struct render_job {
-  celspan_coding coding; /* of its files */
+  celspan_coding coding; /* the coding of its files */
   cs_script *script;
   const cs_request *request;
   const char *output; /* NULL: digests alone */
@@ -39,14 +39,14 @@ typedef struct render_job {
   const cs_output *row;
   cs_progress progress;
   cs_summary summary;
-  cs_record record;        /* of frames that are files */
+  cs_record record;        /* the record of frames that are files */
   cs_whole whole;          /* of a film that is one file */
   bool surveys;            /* frames are built, but not rendered */
   const cs_outlet *outlet; /* NULL: frames are files, or are only hashed */
   cs_into into;            /* of the outlet */
   int64_t *failed;         /* frames; owned */
   size_t failed_count, failed_capacity;
-  cs_exit outcome; /* of the reported failure */
+  cs_exit outcome; /* the outcome of the reported failure */
 } render_job;
 
 /* ---------------------------------------------------------------- outlets */

@@ -27,7 +27,7 @@
  * finished.
  */
 typedef struct cs_feeder {
-  celspan_context branch;  /* of the thread */
+  celspan_context branch;  /* the branch of the thread */
   cs_sound_stream samples; /* owned */
   int descriptor;
   cs_thread thread;
@@ -39,22 +39,22 @@ enum { CS_ENCODER_PLACES = 2, CS_ENCODER_QUEUE = 64 };
 
 typedef struct cs_encoder {
   celspan_context *context; /* borrowed */
-  const char *name;         /* of the film, for messages; borrowed */
+  const char *name;         /* the name of the film, for messages; borrowed */
   cs_child process;
   size_t frame_size;
   cs_thread writer;
-  cs_feeder feeder;      /* of the sound, if there is one */
+  cs_feeder feeder;      /* the feeder of the sound, if there is one */
   pthread_mutex_t mutex; /* protects all fields below */
   pthread_cond_t changed;
   struct {
     unsigned char *pixels; /* owned */
     size_t queued;         /* how often it is queued or being written */
   } places[CS_ENCODER_PLACES];
-  int queue[CS_ENCODER_QUEUE]; /* of places; a ring */
+  int queue[CS_ENCODER_QUEUE]; /* the queue of places; a ring */
   size_t head, waiting;
   int last; /* place of the frame given last; -1: none */
   bool is_complete, is_broken, is_done;
-  int error;    /* of a failed write, except a closed pipe; 0: none */
+  int error;    /* the error of a failed write, except a closed pipe; 0: none */
   bool is_open; /* used by the calling thread only */
 } cs_encoder;
 

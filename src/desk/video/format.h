@@ -33,7 +33,7 @@ typedef struct cs_video_codec {
   int32_t least_width, least_height; /* pixels */
   int32_t most_side;                 /* 0: that of all videos */
   const char *module; /* the picture module codes this format of its own: RGBA; NULL: ffmpeg does */
-  const char *title;  /* of these formats, in sentences */
+  const char *title;  /* the title of these formats, in sentences */
   size_t pixel_bytes; /* that the module holds for each pixel of a frame; 0: it is not counted */
   const char *quality; /* the option for the quality; NULL: a palette's size, or it has none */
   double best, worst;  /* its values at quality 100 and 0 */
@@ -89,7 +89,7 @@ enum {
 
 /* The requested properties of a video. */
 typedef struct cs_video_options {
-  const cs_video_codec *codec; /* of the format */
+  const cs_video_codec *codec; /* the codec of the format */
   celspan_coding coding;       /* its depth and transfer */
   bool dithers;                /* where it has 8 bits */
   bool is_opaque;              /* it has a background */
@@ -109,12 +109,12 @@ typedef struct cs_video_frames {
 
 /* Texts and a picture that a video has in addition; NULL: none. */
 typedef struct cs_video_extras {
-  const char *title;     /* of the film */
+  const char *title;     /* the title of the film */
   const char *maker;     /* the program, with its version and commit */
   const char *chapters;  /* the address of a text in the format ffmetadata */
   const char *captions;  /* the name of a file in the captions_form of the format */
   const char *poster;    /* the name of a file of pixels: RGBA of 8 bits */
-  int32_t width, height; /* of the poster */
+  int32_t width, height; /* the width and height of the poster */
 } cs_video_extras;
 
 enum { CS_VIDEO_SWATCHES = 16 }; /* pixels a side */
@@ -125,7 +125,7 @@ enum { CS_VIDEO_ARGUMENTS = 160, CS_VIDEO_TEXT = 16384 };
 typedef struct cs_video_command {
   const char *arguments[CS_VIDEO_ARGUMENTS]; /* NULL at the end */
   size_t count;
-  char text[CS_VIDEO_TEXT]; /* of formatted arguments */
+  char text[CS_VIDEO_TEXT]; /* the text of formatted arguments */
   size_t text_size;
 } cs_video_command;
 

@@ -28,7 +28,7 @@ typedef struct search {
   double over, fits; /* the greatest factor known to be over the limit, the least that fits */
   double made;       /* the factor of the file as it is */
   double bytes;      /* of that file */
-  double most_bytes; /* of the files that fit; 0: none yet */
+  double most_bytes; /* the most bytes of the files that fit; 0: none yet */
   int tries;
 } search;
 

@@ -27,7 +27,7 @@ typedef struct cs_video_desc {
   cs_video_options options; /* which the format supports */
   cs_video_frames frames;
   cs_sound_stream sound;       /* as long as the frames; none: there is no sound */
-  const char *title;           /* of the film, or NULL; borrowed until the video ends */
+  const char *title;           /* the title of the film, or NULL; borrowed until the video ends */
   const char *chapters;        /* as in cs_video_extras; NULL: none */
   const char *captions;        /* a text in the captions_form of the format; NULL: none */
   const unsigned char *poster; /* RGBA of 8 bits, of the frames' size; NULL: none */
@@ -43,7 +43,7 @@ typedef struct cs_video {
   const cs_video_format *format;
   celspan_coding coding;
   cs_video_layout layout;
-  size_t stride;              /* of RGBA */
+  size_t stride;              /* the stride of RGBA */
   cs_file *file;              /* owned */
   cs_file *captions, *poster; /* which ffmpeg reads; owned; NULL: none */
   cs_video_extras extras;     /* without the chapters; its title and maker are borrowed */
@@ -55,10 +55,10 @@ typedef struct cs_video {
   cs_encoder encoder;
   /* where the picture module codes, instead of the encoder and the files: */
   cs_picture_file picture;
-  unsigned char *pixels; /* of the frame given last; owned */
+  unsigned char *pixels; /* the pixels of the frame given last; owned */
   size_t beside;         /* bytes that the module may hold, counted in the context */
   bool has_digests;
-  cs_slots slots; /* of the frames that are made; owned */
+  cs_slots slots; /* the slots of the frames that are made; owned */
 } cs_video;
 
 /* Starts the encoder. The samples of the sound are the video's, whatever it returns. out: must not

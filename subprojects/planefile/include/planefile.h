@@ -210,7 +210,7 @@ typedef struct planefile_band {
   const planefile_chain *chains;
   const planefile_border *borders; /* of one that was read: by their chains, and by their tops */
   const planefile_cell *cells;
-  const planefile_program *programs; /* of the cells; NULL: all are flat */
+  const planefile_program *programs; /* the programs of the cells; NULL: all are flat */
   const planefile_step *steps;
   const planefile_axis *axes;
   const planefile_stop *stops;
@@ -222,7 +222,7 @@ typedef struct planefile_band {
 /* ---------------------------------------------------------------- writing */
 
 typedef struct planefile_writer_desc {
-  double width, height;                                      /* of the frame, finite, above 0 */
+  double width, height; /* the width and height of the frame, finite, above 0 */
   bool (*write)(void *user, const void *bytes, size_t size); /* the next bytes; false: failed */
   void *user;
   planefile_resize resize; /* NULL: the C library's */
@@ -230,7 +230,7 @@ typedef struct planefile_writer_desc {
   double frames_second; /* of a film; 0: a single plane */
   bool is_coded;        /* flat cells are rounded to 8-bit codes (planefile_round), and
                            the colours of programs to multiples of SHADE */
-  planefile_grid grid;  /* of all coordinates */
+  planefile_grid grid;  /* the grid of all coordinates */
 } planefile_writer_desc;
 
 /* Writes a plane; desc and plane: borrowed. The bytes are a function of the plane alone. Curves of
@@ -270,7 +270,7 @@ typedef struct planefile_plane planefile_plane;
 
 /* Where and why a file is refused. */
 typedef struct planefile_fault {
-  uint64_t offset;  /* of the record of the file where it was found */
+  uint64_t offset;  /* the offset of the record of the file where it was found */
   char reason[120]; /* "band 7: the checksum is wrong" */
 } planefile_fault;
 
@@ -278,7 +278,7 @@ typedef struct planefile_source {
   /* All bytes of [offset, offset + size), which lies within the file; false: failed. */
   bool (*read)(void *user, uint64_t offset, void *bytes, size_t size);
   void *user;
-  uint64_t size;           /* of the file */
+  uint64_t size;           /* the size of the file */
   planefile_resize resize; /* NULL: the C library's */
   void *resize_user;
   /* The codes of a picture of a name, a size and a first key, all rows, which are copied; NULL:
@@ -289,7 +289,7 @@ typedef struct planefile_source {
 typedef struct planefile_info {
   double width, height;
   double frames_second; /* 0: a single plane */
-  uint32_t frame_count; /* of the file */
+  uint32_t frame_count; /* the frame count of the file */
   uint32_t band_count;
   uint32_t picture_count; /* of the file up to this frame */
   bool is_opaque;         /* alpha is PLANEFILE_WHITE everywhere */

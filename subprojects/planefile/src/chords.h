@@ -24,7 +24,7 @@ typedef struct pf_curve {
   double x0, x1;     /* at its ends */
   int64_t y0, y1;
   double low, high; /* no point of it is outside, in x */
-  double step;      /* of the parameter */
+  double step;      /* the step of the parameter */
   uint32_t chords;
   bool is_rational;
 } pf_curve;

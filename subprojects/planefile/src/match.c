@@ -10,7 +10,7 @@ struct pf_pair {
 
 struct pf_known {
   pf_print print;
-  uint32_t number; /* of a cell or a chain of the base */
+  uint32_t number; /* the number of a cell or a chain of the base */
 };
 
 /* ---------------------------------------------------------------- prints */

@@ -21,15 +21,15 @@ typedef struct pf_match {
   pf_memory memory;
   const planefile_band *plane;
   const pf_base *base;
-  planefile_grid grid; /* of both */
-  uint32_t *cells;     /* of each of the plane: that of the base, or NONE */
+  planefile_grid grid; /* the grid of both */
+  uint32_t *cells;     /* the cells of each of the plane: that of the base, or NONE */
   uint32_t *axes;
   uint32_t *plane_cells; /* of each of the base: that of the plane, or NONE */
   uint32_t *plane_axes;
   uint32_t *paired; /* the axes of the plane that are, in the order of their pairing */
   uint32_t paired_count;
-  pf_known *chains; /* of the base, by their prints */
-  pf_known *forms;  /* of the base, by the prints of their forms */
+  pf_known *chains; /* the chains of the base, by their prints */
+  pf_known *forms;  /* the forms of the base, by the prints of their forms */
   pf_pair *pairs;   /* what borders say of cells */
   size_t pair_count, pair_capacity;
 } pf_match;

@@ -14,7 +14,7 @@
 typedef struct shown {
   const planefile_border *borders;
   uint32_t count;
-  uint32_t piece, end; /* the first of its pieces that is needed, and after the last one */
+  uint32_t piece, end; /* of its pieces that is needed, and after the last one */
   int64_t place;       /* twice its mean x */
   planefile_point start, end_at;
   pf_sides sides;
@@ -27,8 +27,8 @@ typedef struct shown {
 /* From a height on a chain has other cells. */
 typedef struct change {
   int32_t height;
-  uint32_t chain; /* of the band */
-  pf_sides sides; /* of the plane */
+  uint32_t chain; /* the chain of the band */
+  pf_sides sides; /* the sides of the plane */
 } change;
 
 typedef struct packer {
@@ -48,7 +48,7 @@ typedef struct packer {
   uint32_t fresh[2 * PF_GROUP], fresh_count; /* cells that are new in the current group */
   uint32_t form;
   pf_way way;            /* the latest move of the chain, in steps */
-  planefile_cell colour; /* of the latest cell */
+  planefile_cell colour; /* the colour of the latest cell */
   pf_models models;
   pf_program_coding *programs; /* NULL: nothing varies */
   pf_encoder *out;

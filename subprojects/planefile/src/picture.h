@@ -29,7 +29,7 @@ typedef struct pf_light_curve {
 
 /* Neighbouring pixels of one row. */
 typedef struct pf_pixels {
-  uint32_t width, height; /* of the frame */
+  uint32_t width, height; /* the width and height of the frame */
   uint32_t x, y, count;   /* at most BATCH */
 } pf_pixels;
 
@@ -53,7 +53,7 @@ typedef struct pf_picture {
   uint32_t width, height;
   pf_texel *texels; /* level by level */
   size_t texel_count;
-  size_t starts[PF_LEVELS + 1]; /* of each level */
+  size_t starts[PF_LEVELS + 1]; /* the starts of each level */
   int level_count;
 } pf_picture;
 

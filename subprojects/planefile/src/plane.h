@@ -7,7 +7,7 @@
 
 /* A band of another frame, from which one of this frame was made. */
 typedef struct pf_kept {
-  uint64_t offset; /* of its record; 0: there is none */
+  uint64_t offset; /* the offset of its record; 0: there is none */
   pf_band band;
   pf_base base;
 } pf_kept;
@@ -20,7 +20,7 @@ struct planefile_plane {
   bool has_base;
   pf_kept *kept;        /* info.band_count; NULL: nothing is kept */
   pf_picture *pictures; /* info.picture_count; those that no band shows are empty */
-  unsigned char codes[PLANEFILE_WHITE + 1]; /* of linear light: in sRGB, 8 bits */
+  unsigned char codes[PLANEFILE_WHITE + 1]; /* the codes of linear light: in sRGB, 8 bits */
   pf_light_curve curve;                     /* where info.varies */
 };
 

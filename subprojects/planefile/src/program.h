@@ -25,8 +25,8 @@ typedef struct pf_program_models {
 /* What the code of the programs of a band depends on. */
 typedef struct pf_program_coding {
   pf_program_models models;
-  int32_t shade;         /* of which colours are multiples */
-  planefile_cell colour; /* of the latest stop */
+  int32_t shade;         /* the shade of which colours are multiples */
+  planefile_cell colour; /* the colour of the latest stop */
   uint32_t *axes;        /* encoding: of each axis of the plane its number plus 1; 0: none yet */
   uint32_t step_count, axis_count, stop_count; /* so far */
 } pf_program_coding;
@@ -72,7 +72,7 @@ void pf_light_curve_make(pf_light_curve *out);
 /* What programs are made of. */
 typedef struct pf_program_source {
   const planefile_band *band;
-  const pf_picture *pictures; /* of the file */
+  const pf_picture *pictures; /* the pictures of the file */
   const pf_light_curve *curve;
 } pf_program_source;
 

@@ -24,10 +24,10 @@ typedef struct reader {
   bool is_film, keeps;     /* keeps: what bands are made from */
   pf_codes codes;
   bool is_pictured;     /* the latest index has a list of pictures */
-  uint64_t *offsets;    /* of the bands, and after them where the last one ends */
-  uint64_t *bases;      /* of the bands of the base; NULL: there is none */
+  uint64_t *offsets;    /* the offsets of the bands, and after them where the last one ends */
+  uint64_t *bases;      /* the bases of the bands of the base; NULL: there is none */
   uint64_t *pictures;   /* of those of the file */
-  unsigned char *bytes; /* of the latest record */
+  unsigned char *bytes; /* the bytes of the latest record */
   size_t capacity;
 } reader;
 

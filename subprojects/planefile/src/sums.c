@@ -137,7 +137,7 @@ typedef struct line {
   int64_t low, high, height;
   double rise; /* dy / dx of its chord, without a sign; 0 where it is upright */
   uint32_t row;
-  pf_slot *slots; /* of the row */
+  pf_slot *slots; /* the slots of the row */
 } line;
 
 static inline int64_t fraction_of(int64_t x) { return x & (PIXEL - 1); }

@@ -39,17 +39,17 @@ typedef struct pf_sums {
   const planefile_plane *plane;
   planefile_view view;
   int64_t left, right;        /* the columns of the crop in the frame */
-  int64_t top;                /* of the rows being made */
+  int64_t top;                /* the top of the rows being made */
   uint32_t rows;              /* that are made at once, at most */
-  size_t words;               /* of the bits of a row, some of them beyond it */
-  pf_slot *slots;             /* of each row a slot for each column, if anything is, */
+  size_t words;               /* the words of the bits of a row, some of them beyond it */
+  pf_slot *slots;             /* the slots of each row a slot for each column, if anything is, */
   uint64_t *bits;             /* and a bit: something is in it */
   pf_lead leads[PF_ROWS + 2]; /* by what rows differ, left of the crop, from those before them */
   pf_lead lead;               /* of the latest row that was read */
-  pf_lead start;              /* of every row: cell 0, and borders that are left of all rows */
-  planefile_span *spans;      /* of the latest row */
-  pf_varied varied;           /* where the plane varies */
-  bool failed;                /* no memory */
+  pf_lead start;         /* the start of every row: cell 0, and borders that are left of all rows */
+  planefile_span *spans; /* the spans of the latest row */
+  pf_varied varied;      /* where the plane varies */
+  bool failed;           /* no memory */
 } pf_sums;
 
 /* view: within its frame. False: no memory; sums must be finished whatever happens. */

@@ -34,11 +34,11 @@ typedef struct unpacker {
   planefile_cell *cells;
   planefile_program *programs;
   pf_program_room room;
-  pf_program_coding *coding; /* of programs; NULL: nothing varies */
-  state *states;             /* of the chains */
+  pf_program_coding *coding; /* the coding of programs; NULL: nothing varies */
+  state *states;             /* the states of the chains */
   uint32_t chain_count, piece_count, cell_count, border_count; /* that there must be in the end */
   uint32_t change_count;
-  uint32_t form; /* of the latest piece */
+  uint32_t form; /* the form of the latest piece */
   pf_way way;    /* the latest move of the chain, in steps */
   planefile_grid grid;
   planefile_cell flat; /* the latest one that does not vary */

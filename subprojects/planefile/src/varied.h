@@ -20,9 +20,9 @@ enum { PF_ROWS = 16 }; /* summed together, at most */
 
 /* The share of a cell changes at a column of a row. */
 typedef struct pf_entry {
-  uint32_t cell; /* of all bands */
+  uint32_t cell; /* the cell of all bands */
   uint32_t next; /* of its column, plus 1; 0: none */
-  int64_t share; /* of a pixel: in PF_HEIGHTths */
+  int64_t share; /* the share of a pixel: in PF_HEIGHTths */
 } pf_entry;
 
 typedef struct pf_varied {
@@ -33,8 +33,8 @@ typedef struct pf_varied {
   size_t entry_count, entry_capacity, start_count, start_capacity;
   uint32_t *heads; /* of `rows` rows of columns + 1 each: the first entry, plus 1 */
   uint32_t rows;
-  int64_t *shares;  /* of the row being read, by cell */
-  uint32_t *places; /* of cells that have a share: among the active ones */
+  int64_t *shares;  /* the shares of the row being read, by cell */
+  uint32_t *places; /* the places of cells that have a share: among the active ones */
   uint32_t *active; /* such cells */
   uint32_t active_count;
   pf_colours *room;

@@ -64,7 +64,7 @@ struct planefile_writer {
   const planefile_band *plane;
   uint32_t flags;
   bool has_base;             /* it is made from the key */
-  draft *drafts;             /* of its bands */
+  draft *drafts;             /* the drafts of its bands */
   planefile_border *borders; /* by their tops */
   planefile_border *shown;   /* those of the current band */
   entry *entries;

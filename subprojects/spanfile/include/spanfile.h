@@ -59,7 +59,7 @@ typedef struct spanfile_span {
 typedef struct spanfile_row {
   const spanfile_span *spans;
   size_t count;
-  const unsigned char *values; /* of raw and gradient spans, in order */
+  const unsigned char *values; /* the values of raw and gradient spans, in order */
 } spanfile_row;
 
 /* One hook for all memory: block NULL allocates, new_size 0 frees and returns NULL, else resizes.
@@ -130,7 +130,7 @@ typedef struct spanfile_reader spanfile_reader;
 
 /* Where and why a file is refused. */
 typedef struct spanfile_fault {
-  uint64_t offset;  /* of the byte of the file where it was found */
+  uint64_t offset;  /* the offset of the byte of the file where it was found */
   char reason[120]; /* "row 7: the checksum is wrong" */
 } spanfile_fault;
 
@@ -138,7 +138,7 @@ typedef struct spanfile_source {
   /* All bytes of [offset, offset + size), which lies within the file; false: failed. */
   bool (*read)(void *user, uint64_t offset, void *bytes, size_t size);
   void *user;
-  uint64_t size;          /* of the file */
+  uint64_t size;          /* the size of the file */
   spanfile_resize resize; /* NULL: the C library's */
   void *resize_user;
 } spanfile_source;

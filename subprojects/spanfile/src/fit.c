@@ -16,7 +16,7 @@ typedef struct fitting {
   spanfile_format format;
   size_t pixel_size;
   sf_row *out;
-  const unsigned char *values;            /* of the spans from `now` on */
+  const unsigned char *values;            /* the values of the spans from `now` on */
   const spanfile_span *now, *end;         /* of the row: not yet in `out` */
   const spanfile_span *model, *model_end; /* of the row above: not yet matched */
   uint32_t model_start;                   /* the column where `model` begins */

@@ -20,7 +20,7 @@ enum { WINDOW_BYTES = 64 * 1024, HEAD_MOST = 1 + SF_LENGTH_BYTES };
 struct spanfile_joiner {
   sf_memory memory;
   sf_output *output;
-  spanfile_info info; /* of the whole */
+  spanfile_info info; /* the info of the whole */
   uint32_t y;         /* the next row */
   uint64_t key_offset;
   const spanfile_source *source; /* the strip that is being added */
@@ -85,7 +85,7 @@ static spanfile_status put(spanfile_joiner *joiner, const void *bytes, size_t si
 
 typedef struct head {
   unsigned char kind;
-  size_t size;      /* of the head itself */
+  size_t size;      /* the size of the head itself */
   uint64_t payload; /* bytes */
 } head;
 

@@ -42,7 +42,7 @@ struct spanfile_reader {
   size_t move_capacity;
   uint64_t next; /* offset of the record after it */
   spanfile_counts counts;
-  spanfile_fault *fault; /* of the call in progress; may be NULL */
+  spanfile_fault *fault; /* the fault of the call in progress; may be NULL */
 };
 
 typedef struct file_record {

@@ -53,7 +53,7 @@ struct spanfile_writer {
   int64_t *moves; /* of the ends in `above`, from the row above that */
   size_t move_capacity;
   sf_bytes record;     /* room for the head, SF_HEAD_BYTES, then the payload */
-  uint64_t key_offset; /* of the latest key row */
+  uint64_t key_offset; /* the key offset of the latest key row */
 };
 
 static spanfile_status fail(spanfile_writer *writer, spanfile_status status) {

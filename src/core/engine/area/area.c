@@ -54,7 +54,7 @@ void cs_area_finish(cs_area *area, cs_memory *memory) {
 typedef struct row_walk {
   cs_area *area;
   const cs_cell *cells;    /* the array of cs_cells; it does not change until the walk is done */
-  cs_intervals *intervals; /* of the boundaries between the two heights */
+  cs_intervals *intervals; /* the intervals of the boundaries between the two heights */
   size_t visible;          /* the next visible boundary */
   bool is_slab; /* the walk covers a part of a row; the remaining heights are walked separately */
 } row_walk;

@@ -16,7 +16,7 @@
 
 typedef struct cs_area {
   cs_row_tools tools; /* borrowed */
-  cs_edges edges;     /* of the row being made */
+  cs_edges edges;     /* the edges of the row being made */
   cs_target target;   /* receives the borders of the row */
   cs_local_sweep sweep;
   cs_dense dense;

@@ -260,7 +260,7 @@ typedef struct fold {
   const cs_crowd_lattice *lattice;
   int channels; /* that transmit different shares: 1 or 3 */
   cs_v4 light, whole;
-  cs_v4 mean; /* of `through` */
+  cs_v4 mean; /* the mean of `through` */
 } fold;
 
 static inline bool is_grey(cs_v4 t) { return t[0] == t[1] && t[1] == t[2]; }

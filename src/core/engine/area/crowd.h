@@ -45,7 +45,7 @@ typedef struct cs_crowd_line {
 
 /* The samples of a pixel that lie in a layer: -1 in `inside`; the others are 0. */
 typedef struct cs_crowd_cover {
-  int32_t count; /* of the samples inside */
+  int32_t count; /* the count of the samples inside */
   /* the least and the greatest number of times that the layer winds around a sample */
   int32_t low, high;
 } cs_crowd_cover;
@@ -86,7 +86,7 @@ typedef struct cs_crowd_member {
 
 /* A member that reaches the current column. Members of nearer layers come first. */
 typedef struct cs_crowd_live {
-  uint64_t key; /* of its layer and its number */
+  uint64_t key; /* the key of its layer and its number */
   int32_t end;  /* the member's */
 } cs_crowd_live;
 
@@ -108,7 +108,7 @@ typedef struct cs_crowd {
   cs_crowd_live *live;     /* members in the current column */
   cs_crowd_live *arriving; /* members that were not in the previous column */
   uint32_t *leaving;       /* members that were only in the previous column */
-  cs_crowd_line *lines;    /* of a layer in a pixel */
+  cs_crowd_line *lines;    /* the lines of a layer in a pixel */
   size_t piece_count, piece_capacity, member_count, member_capacity;
   size_t arriving_count, arriving_capacity;
   size_t entering_capacity, live_count, live_capacity, leaving_capacity, line_capacity;

@@ -29,7 +29,7 @@ typedef struct drawing {
   celspan_context *context;
   int32_t first, count; /* pixels */
   size_t members;
-  double centre; /* of the row */
+  double centre; /* the centre of the row */
 } drawing;
 
 /* ---------------------------------------------------------------- places */

@@ -35,7 +35,7 @@ typedef struct cs_dense_crossing {
 } cs_dense_crossing;
 
 typedef struct cs_dense {
-  cs_dense_place *places;       /* of several sub-rows, room for all members each */
+  cs_dense_place *places;       /* the places of several sub-rows, room for all members each */
   cs_dense_place *spare;        /* room for all members */
   cs_dense_crossing *crossings; /* by member */
   size_t place_capacity, spare_capacity, crossing_capacity;

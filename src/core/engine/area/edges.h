@@ -36,7 +36,7 @@ typedef struct cs_edges {
   int32_t *first, *end;
   bool *is_bent;   /* the boundary has vertices in the row */
   void *storage;   /* one allocation for all the arrays above */
-  size_t capacity; /* of each array */
+  size_t capacity; /* the capacity of each array */
 } cs_edges;
 
 void cs_edges_finish(cs_edges *edges, cs_memory *memory);

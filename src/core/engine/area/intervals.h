@@ -29,7 +29,7 @@
 typedef struct cs_interval {
   size_t low, high;
   size_t last_low;  /* the greatest `low` of all intervals that were merged into this one */
-  cs_extent events; /* of the boundaries that begin or end in the interval */
+  cs_extent events; /* the events of the boundaries that begin or end in the interval */
   cs_extent extent; /* of the interval's boundaries in the row, including those that begin there */
   bool is_crowd;    /* the interval is drawn without its cells (crowd.h) */
 } cs_interval;
@@ -52,9 +52,9 @@ typedef struct cs_interval_begin {
 typedef struct cs_intervals {
   /* given: borrowed */
   celspan_context *context;
-  cs_arena *arena; /* of the row */
+  cs_arena *arena; /* the arena of the row */
   const cs_active *active;
-  const cs_edges *edges;      /* of the active boundaries */
+  const cs_edges *edges;      /* the edges of the active boundaries */
   double y0, y1;              /* the row, or a slab of it */
   cs_member *procedure_edges; /* of scan-line primitives on this row */
   size_t procedure_edge_count;

@@ -66,7 +66,7 @@ typedef struct cs_member {
   /* the segment that contains y ends at points[at]; point_count: the member has ended */
   uint32_t at;
   uint32_t layer;
-  uint32_t span; /* of a procedure; UINT32_MAX for a chain */
+  uint32_t span; /* the span of a procedure; UINT32_MAX for a chain */
   /* decides between equal members: the chain, or the edge of the procedure's span */
   uint32_t order;
   int32_t direction;

@@ -8,10 +8,10 @@
 
 typedef struct cs_row_tools {
   cs_composer *composer;
-  cs_painter *painter; /* of the composer's cells */
+  cs_painter *painter; /* the painter of the composer's cells */
   cs_active *active;   /* boundaries at the row's height, in order */
   cs_cells *cells;     /* between them */
   cs_procedures *procedures;
-  cs_arena *arena; /* of the current row */
-  int32_t width;   /* of the row, pixels */
+  cs_arena *arena; /* the arena of the current row */
+  int32_t width;   /* the width of the row, pixels */
 } cs_row_tools;

@@ -46,12 +46,12 @@ typedef struct cs_window {
   cs_painter *painter;         /* borrowed */
   const cs_composer *composer; /* the painter's */
   cs_arena *arena;             /* borrowed: of the row */
-  int32_t width;               /* of the row */
+  int32_t width;               /* the width of the row */
   cs_row *out;                 /* the row that is written */
   double centre;               /* height of the row's centre */
   /* everything left of this column has been written; the open window begins at this column */
   int32_t from;
-  int32_t end;         /* of the open window; equal to `from` if it is empty */
+  int32_t end;         /* the end of the open window; equal to `from` if it is empty */
   const cs_cell *base; /* the cell left of the window */
   const cs_cell *cell; /* the cell right of all items so far */
   cs_window_border *borders;
@@ -66,7 +66,7 @@ typedef struct cs_window {
   const cs_cell *ahead; /* the cell whose pixels up to ahead_end are folded */
   int32_t ahead_end;
   bool has_stretches;             /* there may be stretches */
-  cs_window_stretch stretches[2]; /* of the cells on both sides of the open window */
+  cs_window_stretch stretches[2]; /* the stretches of the cells on both sides of the open window */
 } cs_window;
 
 void cs_window_init(cs_window *window, cs_painter *painter, cs_arena *arena, int32_t width);

@@ -19,7 +19,7 @@ typedef struct cs_item {
 
 typedef struct cs_cell {
   cs_v4 colour;     /* where length == 0: premultiplied RGBA */
-  cs_set_hash hash; /* of the layers present */
+  cs_set_hash hash; /* the hash of the layers present */
   uint32_t program; /* index of the first item among the composer's */
   uint32_t length;  /* items; 0: one colour everywhere */
 } cs_cell;

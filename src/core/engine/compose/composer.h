@@ -50,14 +50,14 @@ typedef struct cs_composer {
   cs_presence *presences; /* one a layer */
   /* the span of a layer at the place of the walk; NULL without scan-line layers */
   uint32_t *procedure_span_of;
-  cs_set_hash hash; /* of the set */
+  cs_set_hash hash; /* the hash of the set */
   cs_tree_result *results;
   cs_over_outer *outers; /* memory for folds; cs_stack_depth items */
   bool is_flat;          /* cs_composer_is_flat */
   cs_over_table *table;  /* NULL if it does not suit the stack */
   cs_memo *memo;
   size_t memo_size;
-  cs_item *items; /* of all programs in use */
+  cs_item *items; /* the items of all programs in use */
   size_t item_count, item_capacity;
   cs_item *gathered; /* scratch: the items of the cell being composed */
   size_t gathered_count, gathered_capacity;

@@ -45,7 +45,7 @@ typedef struct cs_layer {
   cs_v4 front;
   uint32_t group; /* innermost group, or CS_STACK_NONE */
   uint32_t index; /* for all kinds except FLAT: the index in the array of its kind */
-  float fade;     /* of its paint, if the paint varies */
+  float fade;     /* the fade of its paint, if the paint varies */
   uint8_t kind;   /* a cs_layer_kind */
   uint8_t role;   /* a cs_layer_role */
 } cs_layer;

@@ -41,7 +41,7 @@
 typedef struct cs_over_word {
   uint64_t word;                       /* the layers present */
   cs_over_pair *quads;                 /* for every choice among four layers; NULL: not made yet */
-  cs_over_pair quarters[CS_OVER_FOUR]; /* of sixteen layers each */
+  cs_over_pair quarters[CS_OVER_FOUR]; /* the quarters of sixteen layers each */
 } cs_over_word;
 
 typedef struct cs_over_table {
@@ -49,7 +49,7 @@ typedef struct cs_over_table {
   const cs_stack *stack;
   cs_over_word *words;
   size_t count;
-  cs_over_pair *nodes; /* of all tiers */
+  cs_over_pair *nodes; /* the nodes of all tiers */
   size_t node_count;
   cs_over_pair *tiers[CS_OVER_TABLE_TIERS]; /* in nodes: 0 has the words */
   int top;                                  /* the last tier, which has one node */

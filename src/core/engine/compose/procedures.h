@@ -23,7 +23,7 @@
 typedef struct cs_procedures {
   cs_composer *composer;          /* borrowed: gets the spans of the row */
   cs_arena *arena;                /* borrowed: of the row, for paints and edges */
-  int32_t width, margin;          /* of the frame, in pixels */
+  int32_t width, margin;          /* the width and margin of the frame, in pixels */
   celspan_scanline_output output; /* room for the result of one call of a procedure */
 } cs_procedures;
 

@@ -77,7 +77,7 @@ typedef struct cs_stack {
   celspan_texture **coded; /* textures that were made for the frame: of its shades, with codes as
                               pigments; pictures of patterns; owned */
   size_t coded_count, coded_capacity;
-  celspan_space space; /* of the numbers in rows */
+  celspan_space space; /* the space of the numbers in rows */
   bool has_root;       /* group 0 is the whole frame: it is entered in every cell */
   /* the error that gradient spans may have, as a share of full scale; 0: 1/1023 */
   float span_error;

@@ -31,7 +31,7 @@
 typedef struct cs_defocus_job {
   const celspan_cel *cel;
   celspan_matrix matrix; /* the cel's units to the raster's pixels */
-  int32_t width, height; /* of the raster, pixels */
+  int32_t width, height; /* the width and height of the raster, pixels */
   bool is_through;
   cs_kernel *kernel; /* the compiler owns it from now on; NULL: the mean over each pixel */
 } cs_defocus_job;

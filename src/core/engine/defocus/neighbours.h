@@ -17,7 +17,7 @@ typedef struct cs_defocus_neighbours {
   int32_t first[2], end[2]; /* the samples of the rule's box, by axis */
   celspan_matrix to_units;  /* from samples */
   double slope[2][2];       /* samples in a unit: how much column and row grow with x and y */
-  float colour[3];          /* of a light, in the space of the samples */
+  float colour[3];          /* the colour of a light, in the space of the samples */
 } cs_defocus_neighbours;
 
 void cs_defocus_neighbours_init(cs_defocus_neighbours *neighbours, cs_nearby *rule);

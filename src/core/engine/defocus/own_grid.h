@@ -32,7 +32,7 @@ typedef struct cs_defocus_cel {
   double film_width, film_height;
   celspan_matrix matrix;   /* the cel's units to pixels */
   cs_boundary_frame frame; /* the part of the plane that can be seen, its margin included */
-  int32_t width, height;   /* of the frame, pixels */
+  int32_t width, height;   /* the width and height of the frame, pixels */
   bool is_antialiased;
   celspan_space space;      /* in which it is blurred */
   bool is_source;           /* a mode or a matte shows it pixel by pixel */
@@ -41,7 +41,7 @@ typedef struct cs_defocus_cel {
 
 typedef struct cs_own_grid {
   celspan_matrix matrix; /* the cel's units to pixels of the part; a node is one pixel */
-  int32_t size[2];       /* of the part */
+  int32_t size[2];       /* the size of the part */
   cs_blur blur;          /* in pixels of the part */
   double samples;        /* the least number of samples in the radius, where samples are summed */
   double scale[2], offset[2]; /* by axis, pixels of the frame to pixels of the part */

@@ -31,8 +31,8 @@ bool cs_defocus_samples_are_one(const cs_defocus_samples *samples, int32_t k, cs
 /* Nodes that are summed from samples, tile by tile. Node x of a row lies over the samples from
  * x * factor on, with `extent` of them on either side. */
 typedef struct cs_defocus_tiles {
-  int32_t columns, rows; /* of nodes */
-  int32_t width;         /* of a tile, in nodes, at most */
+  int32_t columns, rows; /* the columns and rows of nodes */
+  int32_t width;         /* the width of a tile, in nodes, at most */
   int32_t factor, extent;
   bool has_function; /* a plain tile has nodes of another colour, which must be made, too */
   void (*take_row)(void *user, int32_t k); /* row k of the samples under the tile */

@@ -21,7 +21,7 @@
 
 typedef struct cs_shifted {
   const cs_shift *shift; /* a reference */
-  celspan_space space;   /* of the nodes */
+  celspan_space space;   /* the space of the nodes */
   bool is_affine;
   celspan_matrix to_units, to_nodes; /* pixels of the frame to the cel's units, and on to nodes */
   cs_defocused_range columns, rows;  /* pixels of the frame that may not be clear */
@@ -40,7 +40,7 @@ typedef struct cs_shifted_rows {
   celspan_context *context;
   cs_isa isa;
   cs_shifted_source from, by;
-  cs_shifted_line_rows line; /* of a line */
+  cs_shifted_line_rows line; /* the line of a line */
   double *places[2];         /* among the nodes, of each column of a row, by axis */
   float *channels;           /* scratch: of each column, two channels, and the alpha */
 } cs_shifted_rows;
@@ -68,7 +68,7 @@ CELSPAN_CHECKED celspan_status cs_shifted_row(cs_shifted_rows *rows, int plane, 
 
 /* The nodes of one plane of a grid. */
 typedef struct cs_shifted_nodes {
-  const float *const *rows; /* of plane 0 */
+  const float *const *rows; /* the rows of plane 0 */
   size_t offset;            /* floats from these to the rows of the plane */
   int32_t columns, count;   /* columns and rows */
 } cs_shifted_nodes;

@@ -10,7 +10,7 @@
 
 typedef struct cs_shifted_source {
   const cs_defocused *grid;
-  const float **rows; /* of plane 0, where their bands are held */
+  const float **rows; /* the rows of plane 0, where their bands are held */
   size_t plane;       /* floats from a row to the same one of the next plane */
   cs_defocus_band **bands;
   size_t band_count;

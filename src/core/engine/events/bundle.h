@@ -49,7 +49,7 @@ CELSPAN_CHECKED celspan_status cs_windings_cross(celspan_context *context, cs_wi
 
 typedef struct cs_bundle {
   uint32_t first, count;   /* of the cull's deferred changes */
-  cs_windings_hash change; /* of all these changes together */
+  cs_windings_hash change; /* the change of all these changes together */
 } cs_bundle;
 
 typedef struct cs_bundles {

@@ -29,7 +29,7 @@
 
 /* A program that is visible under the kernel, and the share of the kernel that it fills. */
 typedef struct cs_convolve_term {
-  cs_program program; /* of a cell of a retained row */
+  cs_program program; /* the program of a cell of a retained row */
   double weight;      /* for the column that is being made */
 } cs_convolve_term;
 
@@ -72,14 +72,14 @@ typedef struct cs_convolve {
   uint32_t *shifts_at, *passed_at; /* lists by column; 0: empty */
   cs_convolve_range *near;         /* signed kernels: the range of the colours near a column */
   cs_convolve_term *terms;
-  double *weights; /* of the terms, in the columns that are mixed at a time */
+  double *weights; /* the weights of the terms, in the columns that are mixed at a time */
   cs_convolve_shift *shifts;
   cs_convolve_passed *passed;
   cs_convolve_sub_row *sub_rows; /* CS_CONVOLVE_SUB_ROWS a row */
   size_t term_count, term_capacity, weight_capacity;
   size_t shift_count, shift_capacity;
   size_t passed_count, passed_capacity;
-  cs_convolve_range *ranges; /* of the sub-rows of each row */
+  cs_convolve_range *ranges; /* the ranges of the sub-rows of each row */
   size_t sub_row_capacity, range_capacity;
 } cs_convolve;
 

@@ -111,8 +111,8 @@ static celspan_status begin_sub_rows(cs_convolve *convolve, celspan_context *con
 
 /* A column in which layers that vary have some weight. */
 typedef struct mixed_column {
-  cs_v4 colour;            /* of the flat colours; then of all */
-  cs_convolve_range range; /* of the colours under the kernel */
+  cs_v4 colour;            /* the colour of the flat colours; then of all */
+  cs_convolve_range range; /* the range of the colours under the kernel */
 } mixed_column;
 
 typedef struct summing {

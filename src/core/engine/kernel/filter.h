@@ -23,7 +23,7 @@ typedef struct cs_filter {
   void *user; /* of retain */
   cs_retained_row *rows;
   const cs_retained_row **under; /* the rows under the kernel, from the topmost down */
-  size_t row_count;              /* of rows, and room in under */
+  size_t row_count;              /* the row count of rows, and room in under */
   cs_convolve convolve;
 } cs_filter;
 

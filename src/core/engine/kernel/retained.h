@@ -23,13 +23,13 @@ typedef struct cs_retained_row {
   /* between cells of the row; until the row is sealed, between cells of the composer */
   cs_border *edges;
   cs_cell *cells; /* in the order of the edges; colours are 0 where they vary */
-  cs_item *items; /* of their programs */
+  cs_item *items; /* the items of their programs */
   cs_procedure_span *procedure_spans;
   size_t edge_count, edge_capacity;
   size_t cell_count, cell_capacity;
   size_t item_count, item_capacity;
   size_t procedure_span_capacity;
-  cs_arena paints; /* of the procedure spans */
+  cs_arena paints; /* the paints of the procedure spans */
 } cs_retained_row;
 
 void cs_retained_finish(cs_retained_row *retained, cs_memory *memory);

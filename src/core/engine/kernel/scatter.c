@@ -25,7 +25,7 @@ typedef struct cs_scatter {
   double centre;                   /* height of the row that is made */
   const cs_retained_row *retained; /* the row that is read */
   uint32_t row;                    /* the number of that row among the rows under the kernel */
-  uint32_t *terms;                 /* of the retained row's cells that vary */
+  uint32_t *terms;                 /* the terms of the retained row's cells that vary */
 } cs_scatter;
 
 /* floor for the places of edges, which are numbers of columns: with fewer instructions than a floor

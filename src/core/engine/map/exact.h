@@ -34,7 +34,7 @@ typedef struct cs_map_line {
   cs_segment at;
   cs_v4 step;     /* the colour on the right less the colour on the left */
   cs_v4 through;  /* the same for the transmission */
-  uint32_t sheet; /* of the list */
+  uint32_t sheet; /* the sheet of the list */
 } cs_map_line;
 
 typedef struct cs_map_exact {

@@ -86,7 +86,7 @@ typedef struct cs_map {
   /* Of a coloured map: the transmission of each cell; lane 3: its mean; 0 where the cell varies.
    * NULL for other maps. */
   cs_v4 *through;
-  cs_item *items; /* of the programs */
+  cs_item *items; /* the items of the programs */
   cs_stack stack; /* the stack that the programs refer to; empty if all cells are flat */
   size_t flat_count, flat_capacity;
   size_t cell_count, cell_capacity, through_capacity;

@@ -7,7 +7,7 @@
 /* The pixel that a walk along a row has reached. */
 typedef struct pixel {
   const cs_map_cell *cells;
-  const cs_v4 *colours; /* of the cells */
+  const cs_v4 *colours; /* the colours of the cells */
   size_t cell_count;
   cs_v4 sum;     /* the colour summed so far */
   uint64_t key;  /* the same sum for keys, multiplied by HEIGHT */
@@ -116,7 +116,7 @@ void CS_WIDE(cs_map_read_alone)(const cs_map_sums *sums, const cs_map_rows *rows
 typedef struct reader {
   celspan_context *context;
   cs_map_rows *rows;
-  const cs_v4 *colours;      /* of the cells */
+  const cs_v4 *colours;      /* the colours of the cells */
   cs_map_span *first, *last; /* the row's spans so far; last: before `first` where there are none */
   pixel pixel;
 } reader;

@@ -22,7 +22,7 @@
 #define CS_MAP_DRAWINGS 64 /* in a frame, at most */
 
 typedef struct cs_map_sheet {
-  cs_map_drawing drawing; /* of a map; all 0 for other sheets */
+  cs_map_drawing drawing; /* the drawing of a map; all 0 for other sheets */
   cs_plan *plan; /* the plan of cels that are swept, owned; NULL: the sheet is drawn from a map */
   /* Of a map: a hash of all that it shows, and the heights of the frame that it reaches. */
   cs_hash hash;

@@ -34,7 +34,7 @@ typedef struct cs_map_drawing {
   cs_v4 light;              /* the light that falls on the drawing; lane 3: its opacity */
   const cs_grade *grade;    /* NULL: none. Borrowed from the scene */
   celspan_space space;
-  cs_v4 *colours; /* of its cells, in the frame's light; 0 where they vary; owned */
+  cs_v4 *colours; /* the colours of its cells, in the frame's light; 0 where they vary; owned */
   /* the light that each cell transmits, faded; lane 3: the mean; 0 where the cell varies. Only of a
    * coloured map; NULL for other maps. Owned. */
   cs_v4 *through;
@@ -50,7 +50,7 @@ typedef struct cs_map_share {
 
 /* Neighbouring pixels of one colour, from the end of the span before. */
 typedef struct cs_map_span {
-  cs_v4 colour; /* of the cells that do not vary */
+  cs_v4 colour; /* the colour of the cells that do not vary */
   int32_t end;
   uint32_t cell;               /* BROKEN: several */
   uint32_t share, share_count; /* in the shares of the rows: the cells that vary */
@@ -76,7 +76,7 @@ typedef struct cs_map_area {
 /* The rows of a drawing in the current swath. */
 typedef struct cs_map_rows {
   const cs_map_drawing *drawing; /* borrowed */
-  struct cs_map_brush *brush;    /* of the cells that vary: brush.h. Borrowed */
+  struct cs_map_brush *brush;    /* the brush of the cells that vary: brush.h. Borrowed */
   int32_t row;                   /* the first row; -1: no rows have been made */
   bool has_back;                 /* where it is clear, something may still be added */
   uint32_t next;                 /* all borders before this one have been visited */
@@ -88,9 +88,9 @@ typedef struct cs_map_rows {
   size_t first[CS_MAP_ROWS + 1]; /* the first span of each row, and the end of the last row's
                                     spans */
   cs_map_share *shares;
-  cs_map_area *areas; /* of the pixel that is being read: the areas that are not 0 */
+  cs_map_area *areas; /* the areas of the pixel that is being read: the areas that are not 0 */
   size_t live_count, live_capacity, place_count, place_capacity, span_count, span_capacity;
-  int32_t width;  /* of the frame */
+  int32_t width;  /* the width of the frame */
   uint64_t *near; /* filled by near.c, if has_near */
   size_t near_words, near_capacity;
   bool has_near;
@@ -117,8 +117,8 @@ typedef struct cs_map_part {
 typedef struct cs_map_sums {
   cs_isa isa;
   int32_t width;    /* pixels of a row; there is one more column, which is not read */
-  size_t words;     /* of a row of bits: a multiple of four */
-  void *storage;    /* of the sums, which lie on lines of the cache */
+  size_t words;     /* the words of a row of bits: a multiple of four */
+  void *storage;    /* the storage of the sums, which lie on lines of the cache */
   cs_map_sum *sums; /* column by column */
   uint64_t *bits;   /* row by row: the pixels to which something was added */
   int32_t *columns; /* room for the columns of a row */

@@ -19,7 +19,7 @@ typedef struct cs_map_swept {
   const cs_plan *plan; /* borrowed; NULL: the sheet is drawn from a map */
   cs_row_maker maker;
   cs_retained_row retained;
-  cs_map map; /* of the swath; it has the stack of the drawing */
+  cs_map map; /* the map of the swath; it has the stack of the drawing */
   cs_map_cells cells;
   uint32_t *numbers;      /* the numbers in the map of the cells of the retained row */
   cs_map_drawing drawing; /* the map on the frame's pixels */

@@ -8,7 +8,7 @@ typedef struct turner {
   celspan_context *context;
   celspan_matrix matrix; /* from units of the map to units of the frame's lines */
   bool is_mirrored;
-  int32_t end[2]; /* of the frame */
+  int32_t end[2]; /* the end of the frame */
   cs_map_lines *out;
 } turner;
 

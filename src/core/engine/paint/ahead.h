@@ -29,7 +29,7 @@ typedef struct cs_over_channels {
 /* The pixels of a run, folded ahead. */
 typedef struct cs_over_channels_ahead {
   cs_over_channels pixels;
-  uint32_t layers[CS_OVER_PLANES_ITEMS]; /* of the program's items */
+  uint32_t layers[CS_OVER_PLANES_ITEMS]; /* the layers of the program's items */
   uint32_t length;                       /* 0: nothing has been folded */
   cs_run run;
 } cs_over_channels_ahead;

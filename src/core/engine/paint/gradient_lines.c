@@ -40,7 +40,7 @@
  * colour. */
 typedef struct cut_list {
   int32_t *columns, *other; /* other: room to merge into */
-  double *breaks;           /* of one layer */
+  double *breaks;           /* the breaks of one layer */
   size_t count;
 } cut_list;
 
@@ -188,7 +188,7 @@ typedef struct colour_curve {
   cs_halving_curve curve;
   cs_painter *painter;
   const cs_program *program;
-  const cs_gradient_table *table; /* of the program, or NULL */
+  const cs_gradient_table *table; /* the table of the program, or NULL */
   double y;
   int32_t short_from, short_end; /* columns before the next line whose pieces would be short */
 } colour_curve;

@@ -10,7 +10,7 @@ struct cs_gradient_tables {
   cs_isa isa;
   cs_arena *scratch;              /* borrowed */
   cs_gradient_table slots[SLOTS]; /* a slot without a shade and a name is empty */
-  cs_arena sections;              /* of all tables */
+  cs_arena sections;              /* the sections of all tables */
   size_t section_count;
 };
 

@@ -35,7 +35,7 @@ typedef struct cs_gradient_table {
   const cs_shade *shade;
   /* before each stop, after the last, and behind the horizon */
   const cs_gradient_table_section *sections;
-  cs_set_hash name; /* of the program's layers */
+  cs_set_hash name; /* the name of the program's layers */
 } cs_gradient_table;
 
 typedef struct cs_gradient_tables cs_gradient_tables;

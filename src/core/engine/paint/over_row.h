@@ -56,7 +56,7 @@ typedef struct cs_over_row_outer {
 
 typedef struct cs_over_row {
   celspan_context *context;
-  cs_arena *arena; /* of the states; borrowed */
+  cs_arena *arena; /* the arena of the states; borrowed */
   const cs_stack *stack;
   cs_isa isa;
   int32_t count; /* pixels */

@@ -54,11 +54,11 @@ typedef struct cs_copies_piece {
 
 /* The pieces of a run, on some rows. */
 typedef struct cs_copies_plan {
-  cs_item *items; /* of the program */
+  cs_item *items; /* the items of the program */
   uint32_t length;
   size_t item_capacity;
   int32_t x0, x1, row, end_row;
-  uint32_t fetches; /* of blocks, when it was made */
+  uint32_t fetches; /* the fetches of blocks, when it was made */
   cs_copies_piece *pieces;
   size_t count, capacity;
 } cs_copies_plan;
@@ -80,14 +80,14 @@ typedef struct cs_painter {
   cs_over_outer *outers; /* scratch, of folds; cs_stack_depth */
   cs_isa isa;            /* the instructions that loops over pixels are made with */
   cs_image_view *images;
-  cs_block_cache *blocks; /* of its pictures; NULL without pictures */
+  cs_block_cache *blocks; /* the blocks of its pictures; NULL without pictures */
   cs_defocused_view *defocused;
   cs_painter_steady *steady;            /* one a shade */
   struct cs_gradient_tables *gradients; /* NULL without formulas: gradient_table.h */
   cs_over_channels_ahead *ahead;        /* two, or NULL: ahead.h */
   int next_ahead;                       /* which of the two is replaced next */
   cs_copies_plan *copies;               /* NULL without pictures: copies.c */
-  cs_arena scratch;                     /* of one run */
+  cs_arena scratch;                     /* the scratch of one run */
   cs_shown shown[2];    /* of the columns being painted, and of those right of them */
   uint64_t evaluations; /* pixels whose colour has been computed */
 } cs_painter;

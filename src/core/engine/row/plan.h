@@ -16,7 +16,7 @@ struct cs_defocus; /* engine/defocus/defocus.h */
 
 /* What a plan shows: a cel of the film, or a flat back light behind one. */
 typedef struct cs_plan_shown {
-  cs_hash hash;       /* of the cel and its objects, or of the light */
+  cs_hash hash;       /* the hash of the cel and its objects, or of the light */
   size_t first;       /* the number of its first layer */
   double top, bottom; /* the heights that it reaches, in pixels; top > bottom: it reaches none */
 } cs_plan_shown;

@@ -21,9 +21,9 @@ typedef struct cs_row_maker {
   cs_active active;         /* the boundaries that the current height crosses, in order */
   cs_composer composer;
   cs_cells cells;     /* between the boundaries */
-  cs_painter painter; /* of the cells */
+  cs_painter painter; /* the painter of the cells */
   cs_procedures procedures;
-  cs_arena arena; /* of the current row */
+  cs_arena arena; /* the arena of the current row */
   int32_t row;    /* the row at whose height the boundaries are; NONE: at none yet */
   /* the three filters */
   cs_centre centre;

@@ -36,7 +36,7 @@ typedef struct cs_sampler {
   const cs_picture *picture;
   /* Frame pixels to picture pixels (texel i covers [i, i+1)), homogeneous. */
   celspan_matrix inverse;
-  int32_t width, height; /* of the picture */
+  int32_t width, height; /* the width and height of the picture */
   celspan_sampling sampling;
   celspan_wrap wrap;
   cs_isa isa; /* the instructions its samples are made with */

@@ -39,9 +39,9 @@ CELSPAN_CHECKED celspan_status cs_sampler_at(cs_block_cache *blocks, const cs_sa
 typedef struct cs_sampler_texels {
   int32_t count;
   int32_t rows;               /* rows of the block, from the row of these texels down */
-  cs_picture_opacity opacity; /* of the block */
+  cs_picture_opacity opacity; /* the opacity of the block */
   bool are_coded;             /* their codes are exact: cs_picture_block */
-  const unsigned char *codes; /* of the first texel; NULL: all texels are clear */
+  const unsigned char *codes; /* the codes of the first texel; NULL: all texels are clear */
   const float *light;
 } cs_sampler_texels;
 

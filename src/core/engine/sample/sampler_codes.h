@@ -21,7 +21,7 @@
 typedef struct cs_sampler_tiles {
   int32_t column, row, columns;                 /* its first block, and its width in blocks */
   bool are_opaque;                              /* all blocks that are touched are opaque */
-  const unsigned char *codes[CS_SAMPLER_TILES]; /* of the tiles that are touched */
+  const unsigned char *codes[CS_SAMPLER_TILES]; /* the codes of the tiles that are touched */
   /* Bytes from a quad's codes to those that the row after the next will read: they are fetched into
    * the cache now, so that they are there in time. */
   ptrdiff_t ahead;

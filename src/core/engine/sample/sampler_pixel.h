@@ -16,7 +16,7 @@ void cs_sampler_bicubic(const cs_sampling *run, double u, double v, float rgba[4
 
 /* The values that all boxes of a picture share along an axis, in its pixels. */
 typedef struct cs_sampler_axis {
-  double width;         /* of a box */
+  double width;         /* the width of a box */
   double least, most;   /* the edges of the picture, unless it repeats */
   double side, inverse; /* of a texel of the level; a power of two, so both are exact */
 } cs_sampler_axis;

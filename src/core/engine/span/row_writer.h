@@ -15,7 +15,7 @@
 typedef struct cs_row_writer {
   cs_row *row;
   celspan_span *next;
-  cs_v4 colour; /* of the last span, if that is a single; else no colour */
+  cs_v4 colour; /* the colour of the last span, if that is a single; else no colour */
   int32_t from; /* the column where the last span ends */
 } cs_row_writer;
 

@@ -68,7 +68,7 @@ static inline cs_change cs_change_join(cs_change a, cs_change b) {
 /* One boundary between the heights, when it is not a single segment there. */
 typedef struct cs_bend {
   uint32_t boundary;     /* its index in the order at the current height */
-  uint32_t vertex;       /* the first of its vertices strictly between the heights, downwards */
+  uint32_t vertex;       /* of its vertices strictly between the heights, downwards */
   uint32_t vertex_count; /* the number of them */
   bool ends;             /* its chain does not cross the next height */
   bool ends_above;       /* its chain ends above the next height, at its last vertex */
@@ -86,7 +86,7 @@ typedef struct cs_active_store {
   uint32_t *free_slots;
   size_t free_count;
   void *storage;   /* one allocation for all arrays of cs_active except bends and vertices */
-  size_t capacity; /* of each array */
+  size_t capacity; /* the capacity of each array */
 } cs_active_store;
 
 typedef struct cs_active {

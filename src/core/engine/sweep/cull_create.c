@@ -128,7 +128,7 @@ typedef struct jobs {
   const cs_cull_grid *grid;
   cs_cull_job *list;
   int32_t count;
-  cs_account_kind account; /* of the thread that starts the jobs */
+  cs_account_kind account; /* the account of the thread that starts the jobs */
 } jobs;
 
 static void run_job(void *user, int worker, int32_t number) {

@@ -45,7 +45,7 @@ typedef struct cs_cull_job {
   struct cs_cull_veil *veils;  /* scratch: one more than groups may be around a layer */
   cs_cull_presence *presences; /* scratch, of a tree's layers */
   uint64_t *painted;           /* scratch, likewise */
-  void *scratch;               /* of desc->scratch_size bytes */
+  void *scratch;               /* the scratch of desc->scratch_size bytes */
 } cs_cull_job;
 
 static inline double cs_cull_grid_top(const cs_cull_grid *grid, int32_t row) {

@@ -18,7 +18,7 @@
 typedef struct cs_frame_pipeline_frame cs_frame_pipeline_frame;
 
 typedef struct cs_frame_pipeline {
-  size_t count;      /* of frames */
+  size_t count;      /* the count of frames */
   int workers;       /* 0: one per processor */
   bool keeps_going;  /* after the failure of a frame, other frames are still made */
   size_t frame_size; /* bytes that a frame carries; zero when it is built */

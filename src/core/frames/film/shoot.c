@@ -20,10 +20,10 @@
  * when that frame is finished.
  */
 typedef struct known_frame {
-  int64_t number;     /* of the frame */
+  int64_t number;     /* the number of the frame */
   bool is_made;       /* the fields below are set */
   cs_file_stamp file; /* where frames are files */
-  uint64_t digest[2]; /* of its pixels, where digests are asked for */
+  uint64_t digest[2]; /* the digest of its pixels, where digests are asked for */
 } known_frame;
 
 typedef struct known_frames {
@@ -75,9 +75,9 @@ typedef struct frame_task {
   cs_shoot_frame frame;
   cs_film_frame built;
   bool is_known; /* `duplicate` is set */
-  bool is_first; /* the first of the frames that are equal */
+  bool is_first; /* of the frames that are equal */
   size_t duplicate;
-  size_t slot;  /* of a stream */
+  size_t slot;  /* the slot of a stream */
   bool repeats; /* it shows the same as the frame before it */
 } frame_task;
 

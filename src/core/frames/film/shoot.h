@@ -42,12 +42,12 @@ typedef struct cs_shoot_frame {
   cs_hash inputs; /* of its pictures' files; set only where `keep` is given */
   uint64_t digest[2];
   double seconds;            /* that building and making it took */
-  cs_file_contents contents; /* of its file, where that was made or copied */
+  cs_file_contents contents; /* the contents of its file, where that was made or copied */
 } cs_shoot_frame;
 
 /* A frame on its way into something else than a file. */
 typedef struct cs_shoot_put {
-  celspan_context *context; /* of the thread */
+  celspan_context *context; /* the context of the thread */
   const celspan_frame_desc *desc;
   size_t slot;
   cs_shoot_frame *frame;
@@ -57,7 +57,7 @@ typedef struct cs_shoot {
   celspan_context *context;
   cs_film_info film;
   const cs_sequence *frames;
-  const char *pattern;      /* of the files' names; NULL: no files */
+  const char *pattern;      /* the pattern of the files' names; NULL: no files */
   celspan_frame_desc frame; /* without exposures; workers: of the whole run */
   celspan_file_desc file;   /* without the fields that come from the film and its frames */
   bool has_digests;         /* each frame's pixels are hashed */
@@ -71,7 +71,7 @@ typedef struct cs_shoot {
    * there are digests. With `give`, it makes the frame in a slot, in any thread; otherwise it is
    * called by the calling thread, in order, and slot is 0. NULL: files. */
   celspan_status (*put)(void *user, const cs_shoot_put *one);
-  size_t slots; /* of the stream; 0 without `give` */
+  size_t slots; /* the slots of the stream; 0 without `give` */
   /* Gives the frame in a slot on; the slot is free afterwards. Calling thread, in order. NULL: it
    * is no stream. */
   celspan_status (*give)(void *user, size_t slot);

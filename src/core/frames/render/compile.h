@@ -33,7 +33,7 @@ typedef struct cs_view {
   int32_t first_row, end_row, first_column, end_column;
   size_t most_dashes;       /* in view; with more, the plan is crowded (engine/row/plan.h) */
   float span_error;         /* see engine/compose/stack.h */
-  celspan_space space;      /* of the rows */
+  celspan_space space;      /* the space of the rows */
   celspan_space film_space; /* for a rostrum without one; AROUND: the space of the rows */
   /* For planes: what places are multiples of, in pixels, across and down. Curves are kept
    * (model/geometry/boundary.h), and objects lie at multiples of it, so that their curves are the

@@ -55,16 +55,16 @@ struct cs_compiler {
   cs_plan *plan;
   int workers; /* threads at most */
   cs_boundary_frame frame;
-  cs_boundary_builder *boundaries; /* of the plan, in the frame; shared by copies */
+  cs_boundary_builder *boundaries; /* the boundaries of the plan, in the frame; shared by copies */
   double first_height, end_height; /* of the rows that will be asked for, with their margin */
   double first_place, end_place;   /* of the columns that will be asked for */
   size_t most_dashes;              /* with more in view, the plan is crowded */
   const size_t *cel_numbers;       /* see cs_view */
   size_t cel;                      /* from 1; it and the mark are for messages */
-  cs_mark mark;                    /* of the cel; borrowed */
+  cs_mark mark;                    /* the mark of the cel; borrowed */
   cs_v4 front;
-  celspan_space space; /* of the object being compiled */
-  celspan_point unit;  /* of planes: see cs_view */
+  celspan_space space; /* the space of the object being compiled */
+  celspan_point unit;  /* the unit of planes: see cs_view */
   uint32_t group;      /* the group being filled, or CS_STACK_NONE */
   cs_compiler_isolation isolation;
   bool records;     /* an operand is being compiled: it leaves one result on the tree's stack */

@@ -17,7 +17,7 @@
  * part of the place, so that the object has the same map wherever it is moved. */
 typedef struct placed_cel {
   const celspan_cel *cel;
-  const cs_view *view; /* of the frame */
+  const cs_view *view; /* the view of the frame */
   size_t number;
   celspan_matrix matrix; /* the drawing's units to pixels */
   double opacity;
@@ -27,7 +27,7 @@ typedef struct placed_cel {
   bool is_made;            /* the map was made just now */
   /* a map of the rows that are asked for gives the same result as a map of all rows */
   bool is_cropped;
-  cs_census census; /* of its shapes */
+  cs_census census; /* the census of its shapes */
 } placed_cel;
 
 /* A map of some rows is made where they are at most this part of the frame. */
@@ -323,7 +323,7 @@ static celspan_status place_cels(celspan_context *context, const cs_cel_parts *p
 /* A frame that is being made. */
 typedef struct making {
   celspan_context *context;
-  const celspan_rostrum *rostrum; /* of the parts */
+  const celspan_rostrum *rostrum; /* the rostrum of the parts */
   const celspan_rostrum *other;   /* of another exposure; NULL: there is none */
   bool repeats;                   /* see celspan_frame_desc */
   cs_cel_parts parts;

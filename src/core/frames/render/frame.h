@@ -24,12 +24,12 @@ typedef struct cs_frame {
   float *weights;
   celspan_rostrum **rostrums; /* as cs_rostrum_shown: references */
   size_t count, capacity;
-  cs_view view;       /* of the rows asked for, with all their columns */
+  cs_view view;       /* the view of the rows asked for, with all their columns */
   bool repeats;       /* see celspan_frame_desc */
   bool has_antialias; /* the same for all exposures; otherwise each exposure has its own */
   cs_antialias antialias;
   bool is_crowded;
-  int32_t width, height; /* of the whole frame */
+  int32_t width, height; /* the width and height of the whole frame */
   int32_t crop_x, crop_y, crop_width, crop_height;
   int workers; /* at least 1 */
   int strip_height;

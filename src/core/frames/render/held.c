@@ -38,7 +38,7 @@ typedef struct cs_held {
   int32_t first_row, end_row; /* of the frame, as far as its rows are asked for */
   int32_t first_band;
   size_t count;
-  atomic_size_t bytes; /* of the bands that are kept, or will be */
+  atomic_size_t bytes; /* the bytes of the bands that are kept, or will be */
   band bands[];
 } cs_held;
 

@@ -18,7 +18,7 @@ void cs_layers_fill_flat(cs_layer *layer, cs_paint paint, float fade);
 /* A texture in its place. */
 typedef struct cs_layers_texture {
   const celspan_texture *texture;
-  celspan_box bounds;        /* of the primitive: where a picture without a box lies */
+  celspan_box bounds;        /* the bounds of the primitive: where a picture without a box lies */
   bool ends_at_bounds;       /* the layer ends there by a boundary, not by the end of the picture */
   celspan_matrix inverse;    /* frame pixels to its units */
   cs_boundary_frame visible; /* pixels: the layer is present nowhere else */

@@ -11,7 +11,7 @@ typedef struct search {
   size_t rich;  /* shapes of the rich objects */
   size_t least; /* shapes of a part */
   cs_cel_parts *parts;
-  size_t number;                  /* of the cel */
+  size_t number;                  /* the number of the cel */
   size_t first;                   /* of its parts */
   size_t count, most;             /* cels of the frame so far, and room for them */
   size_t rich_shapes, all_shapes; /* of the parts of this cel, and of the objects between them */

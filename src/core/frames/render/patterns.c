@@ -33,7 +33,7 @@ typedef struct view {
   const cs_repeat *repeat;
   celspan_matrix to_pixels; /* from the pattern's units */
   double left, top;         /* the first boxes in view, counted from the pattern's own box */
-  double columns, rows;     /* of boxes in view; 0: nothing is */
+  double columns, rows;     /* the columns and rows of boxes in view; 0: nothing is */
   double scale_x, scale_y;  /* pixels to a unit of the pattern, at most */
 } view;
 

@@ -17,7 +17,7 @@
 
 /* A picture of a pattern that was made for this frame. */
 typedef struct cs_patterns_picture {
-  cs_hash tile; /* of the rostrum that it shows */
+  cs_hash tile; /* the tile of the rostrum that it shows */
   int32_t width, height;
   celspan_space space;
   celspan_texture *texture; /* a reference */

@@ -33,10 +33,10 @@ typedef struct cs_row_worker {
   cs_row sum;
   cs_held_copy held;
   /* of a crowded frame */
-  cs_plan *plans;       /* of the current pane */
+  cs_plan *plans;       /* the plans of the current pane */
   cs_view pane;         /* the current pane; without rows where there is none */
   cs_row joined;        /* the row that was made of several panes */
-  uint64_t evaluations; /* of earlier panes */
+  uint64_t evaluations; /* the evaluations of earlier panes */
 } cs_row_worker;
 
 CELSPAN_CHECKED celspan_status cs_row_worker_init(cs_row_worker *worker, celspan_context *context,

@@ -26,7 +26,7 @@
 typedef struct strip {
   cs_row_queue rows;         /* where the sink takes no shares */
   void *share;               /* where the sink takes shares */
-  celspan_statistics counts; /* of the share's rows */
+  celspan_statistics counts; /* the counts of the share's rows */
 } strip;
 
 typedef struct delivery {

@@ -132,7 +132,7 @@ size_t cs_ways_end(const celspan_rostrum *rostrum, const cs_ways *ways, size_t f
 
 typedef struct counting {
   cs_census census;
-  double width, height; /* of the frame */
+  double width, height; /* the width and height of the frame */
 } counting;
 
 /* How much of [low, high] lies in [0, end]. */

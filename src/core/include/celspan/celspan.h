@@ -544,7 +544,7 @@ typedef enum celspan_rule { CELSPAN_RULE_NONZERO = 0, CELSPAN_RULE_EVENODD } cel
 typedef struct celspan_rect_desc {
   size_t struct_size;
   double x, y, width, height;
-  double radius; /* of the corners; clamped to half the shorter side */
+  double radius; /* the radius of the corners; clamped to half the shorter side */
   celspan_texture *texture;
 } celspan_rect_desc;
 
@@ -690,7 +690,7 @@ typedef struct celspan_stroke_desc {
   const celspan_point *points; /* of a spline, clamped or, when closed, periodic; copied */
   const double *widths;        /* one for each point; NULL: all `width`; copied */
   size_t point_count;
-  int degree;              /* of the spline, 1..15, clamped to point_count - 1; 1 */
+  int degree;              /* the degree of the spline, 1..15, clamped to point_count - 1; 1 */
   bool closed;             /* the points' */
   const char *data;        /* SVG path data; Z closes a subpath; copied */
   celspan_object *outline; /* a primitive with an outline, whose transform and fade do not matter;
@@ -707,7 +707,7 @@ typedef struct celspan_stroke_desc {
                           * 0, scaled down together when it is shorter; not with dashes; 0 0 */
   double from, to;      /* the part of the whole length that is drawn, clamped to 0..1; 0 and 1 */
   celspan_texture *texture;
-  celspan_stroke_profile profile;  /* of tapers */
+  celspan_stroke_profile profile;  /* the profile of tapers */
   const celspan_contour *contours; /* as of a path */
   size_t contour_count;
 } celspan_stroke_desc;
@@ -1070,7 +1070,7 @@ typedef struct celspan_displace_desc {
   celspan_object *by;   /* borrowed, in the units of the object, which it may be */
   celspan_channel x, y; /* of `by`, without its alpha; RED and GREEN */
   double scale;         /* units, -1e6..1e6; 20 */
-  celspan_space space;  /* of the channels: LINEAR, or SRGB, their codes */
+  celspan_space space;  /* the space of the channels: LINEAR, or SRGB, their codes */
 } celspan_displace_desc;
 
 CELSPAN_DESCRIPTION(celspan_displace_desc)
@@ -1342,7 +1342,7 @@ typedef struct celspan_rostrum_desc {
   double width, height;
   bool front_is_colour, back_is_colour; /* as in celspan_cel_desc */
   celspan_space space;
-  celspan_grade *grade; /* of the whole; kept; NULL: none */
+  celspan_grade *grade; /* the grade of the whole; kept; NULL: none */
   /* Over all of it, on the frame of the film, after the grade: the codes of this texture, times 2,
      less 1, are added to the sRGB codes of the picture (LINEAR_LIGHT); alpha stays. Inside another
      composition a rostrum with grain has LINEAR for AROUND. Kept; NULL: none */

@@ -46,7 +46,7 @@ typedef struct celspan_parameter {
   const char *text;           /* the default, as celspan_lua_set takes a value */
   double number;              /* the default of a number; of a boolean 1 or 0 */
   double least, most;         /* of a number; -INFINITY and INFINITY if there is no bound */
-  const char *const *choices; /* of a choice */
+  const char *const *choices; /* the choices of a choice */
   size_t choice_count;
   const char *about; /* NULL: none */
 } celspan_parameter;
@@ -72,17 +72,17 @@ typedef struct celspan_sound_passage {
 /* A sound that makes another one lower while it is heard. */
 typedef struct celspan_sound_ducker {
   size_t sound;           /* its place among the sounds of the film, from 0 */
-  double gain;            /* of the other sound, 0..1 */
+  double gain;            /* the gain of the other sound, 0..1 */
   double attack, release; /* seconds of the ramps before and after */
 } celspan_sound_ducker;
 
 /* A file that is heard. */
 typedef struct celspan_sound {
   size_t struct_size;
-  const char *path; /* of a file, or an address data:... that contains it */
+  const char *path; /* the path of a file, or an address data:... that contains it */
   double start;     /* second of the film at which second 0 of the file is or would be heard */
   double speed;     /* 2: twice as fast, at the same pitch */
-  double gain[2];   /* of the left and the right channel: factors of the amplitude */
+  double gain[2];   /* the gain of the left and the right channel: factors of the amplitude */
   const celspan_sound_passage *passages; /* the sound's own, and of films in films: all are open */
   size_t passage_count;                  /* while it is heard; 1 or more */
   const celspan_sound_ducker *duckers;

@@ -22,7 +22,7 @@
 typedef struct cs_cube {
   atomic_size_t references;
   cs_memory *memory;
-  cs_hash hash;     /* of its domain and values */
+  cs_hash hash;     /* the hash of its domain and values */
   bool is_solid;    /* three dimensions */
   size_t side;      /* values along a side, at least 2 */
   double domain[6]; /* the least red, green, blue; then the greatest */

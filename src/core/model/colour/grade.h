@@ -42,7 +42,7 @@ typedef struct cs_grade {
   double exponent;                 /* 1 / gamma */
   cs_grade_map matrix;
   cs_grade_curve curves[3];
-  int steps;                /* of codes; 0: none */
+  int steps;                /* the steps of codes; 0: none */
   celspan_space cube_space; /* of the numbers in the table */
   cs_cube *cube;            /* NULL: none. A reference */
   cs_keying keying;         /* where it is given, there are no steps, and the alpha changes, too */

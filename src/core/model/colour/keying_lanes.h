@@ -11,7 +11,7 @@
 
 typedef struct cs_keying {
   bool is_given, is_luma;
-  float chroma[2]; /* of the screen: Cb, Cr */
+  float chroma[2]; /* the chroma of the screen: Cb, Cr */
   float along[2];  /* these, divided by the square of their length */
   float screen[4]; /* its codes; lane 3 is 0 */
   float spill;     /* the part of the spill that is taken off, 0..1; not by luma */

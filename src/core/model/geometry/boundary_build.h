@@ -58,7 +58,7 @@ typedef struct cs_boundary_builder {
   cs_boundary_set *set;
   cs_boundary_frame frame;
   cs_boundary_frame inside;        /* plain curves in this rectangle count as inside */
-  cs_boundary_stretches stretches; /* of the current contour */
+  cs_boundary_stretches stretches; /* the stretches of the current contour */
   cs_boundary_stretch straight;    /* the initial value of the stretches of the current curve */
   cs_bezier *fronts; /* the parts of the current piece that are in front of the horizon */
   size_t front_count, front_capacity;

@@ -24,7 +24,7 @@ typedef struct rounding {
 typedef struct piece {
   cs_bezier curve;
   celspan_point a, b; /* its ends */
-  double length;      /* of a straight side, else 0 */
+  double length;      /* the length of a straight side, else 0 */
 } piece;
 
 static void load(const cs_lines *lines, size_t i, piece *out) {

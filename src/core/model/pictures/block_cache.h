@@ -21,7 +21,7 @@ typedef struct cs_block_cache_slot {
   int32_t column, row;
   cs_picture_opacity opacity;
   const float *texels;        /* NULL: the slot is empty */
-  const unsigned char *codes; /* of the texels; NULL where codes would not be exact */
+  const unsigned char *codes; /* the codes of the texels; NULL where codes would not be exact */
   cs_picture_block *block;
 } cs_block_cache_slot;
 
@@ -38,7 +38,7 @@ typedef struct cs_block_cache_opacity {
 typedef struct cs_block_cache {
   celspan_context *context;
   celspan_status status;       /* the first failure; after one, all texels are clear */
-  const cs_srgb8_curve *curve; /* of all blocks; NULL before the first one */
+  const cs_srgb8_curve *curve; /* the curve of all blocks; NULL before the first one */
   uint32_t fetches;            /* blocks fetched from the store so far */
   uint32_t pairs; /* pairs of slots in use, a power of two; fewer when memory is short */
   cs_block_cache_slot slots[CS_BLOCK_CACHE_SLOTS];

@@ -32,7 +32,7 @@
 typedef struct file_pass {
   celspan_context *context;
   cs_picture_entry *entry;
-  int level;                          /* of the blocks that are filled */
+  int level;                          /* the level of the blocks that are filled */
   int32_t column, row, columns, rows; /* the rectangle of its blocks */
   cs_picture_block **blocks;          /* row-major; NULL once the block is in the store */
   int32_t x0, x1, y0, y1;             /* pixels */

@@ -50,7 +50,7 @@ typedef struct cs_picture_request {
 typedef struct cs_picture_header {
   celspan_picture_info info;
   cs_picture_alpha alpha;
-  int bits;       /* of the coded values when they are integers of at most 16 bits, else 0 */
+  int bits; /* the bits of the coded values when they are integers of at most 16 bits, else 0 */
   bool is_linear; /* they were in a space of OpenColorIO, and are linear light, premultiplied */
   /* What the file says: its primaries, if it has some (model/colour/primaries.h), and the name of
    * its space, if celspan does not have that; "": it does not say. info.colour is then
@@ -73,7 +73,7 @@ typedef struct cs_picture_header {
 typedef struct cs_picture_part {
   int subimage;          /* -1: a layer, of the first subimage */
   char name[256];        /* the name by which it can be requested as a layer; "": it has none */
-  int32_t width, height; /* of a subimage: as stored, its data window */
+  int32_t width, height; /* the width and height of a subimage: as stored, its data window */
   int channels;
   char depth[16]; /* "8", "10", "16", "half", "float", ... */
 } cs_picture_part;
@@ -88,7 +88,7 @@ typedef struct cs_picture_moving {
    * above that nothing is lost */
   int32_t quality;
   int32_t plays;               /* how often several pictures are played; 0: for ever */
-  int32_t threads;             /* of the encoder; its bytes do not depend on them */
+  int32_t threads;             /* the threads of the encoder; its bytes do not depend on them */
   int32_t is_opaque;           /* alpha is not kept */
   int32_t primaries, transfer; /* numbers of ITU-T H.273; 0: those of the colour */
 } cs_picture_moving;

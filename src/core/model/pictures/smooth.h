@@ -19,8 +19,8 @@
 
 /* The alphas of a rectangle and of the area around it, as far as the picture extends. */
 typedef struct cs_smooth_alphas {
-  int32_t width, height;  /* of the picture */
-  celspan_rectangle area; /* of the picture */
+  int32_t width, height;  /* the width and height of the picture */
+  celspan_rectangle area; /* the area of the picture */
   uint32_t *steps;        /* row-major: 0 to 255, or CS_SMOOTH_BETWEEN */
   uint32_t *sums;         /* scratch memory, as many as the area has columns */
 } cs_smooth_alphas;

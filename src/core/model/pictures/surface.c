@@ -10,7 +10,7 @@
 typedef struct layout {
   size_t size;  /* bytes of a pixel */
   int channels; /* 1 grey, 3, 4 with alpha */
-  int bits;     /* of a code; 0: floats */
+  int bits;     /* the bits of a code; 0: floats */
 } layout;
 
 static const layout layouts[] = {

@@ -8,11 +8,11 @@
 struct celspan_grade {
   atomic_size_t references;
   cs_memory *memory;
-  cs_hash hash; /* of a table of colours its contents count, not its name */
+  cs_hash hash; /* the hash of a table of colours its contents count, not its name */
   cs_grade steps;
   /* The description, for the oracle. It points to the curves of the steps, and names no files. */
   celspan_grade_desc desc;
-  celspan_key_desc key; /* of a key, likewise; it names no colour */
+  celspan_key_desc key; /* the key of a key, likewise; it names no colour */
   float screen[3];      /* the colour of a key, as light */
 };
 

@@ -34,7 +34,7 @@ typedef struct probe_call {
   celspan_context *context;
   double film_width, film_height;
   celspan_point point;
-  celspan_space space; /* of all numbers */
+  celspan_space space; /* the space of all numbers */
 } probe_call;
 
 /* The light at the point. */
@@ -96,7 +96,7 @@ struct place {
   const place *around; /* NULL: nothing around it can be seen from here */
   const probe_call *probe;
   const celspan_rostrum *rostrum; /* NULL: the place is in a list of objects */
-  celspan_object *const *objects; /* of a list */
+  celspan_object *const *objects; /* the objects of a list */
   size_t left;           /* objects of a list, or places of a rostrum, that have not been met yet */
   celspan_matrix matrix; /* for a list: from its units to film units */
   light_sample front;    /* for a list: the light that falls on it */

@@ -101,7 +101,7 @@ typedef struct cs_boolean {
   /* its operands are like CS_MIXING_MIXED: the space matters, if there is one */
   celspan_space space;
   bool mixes;                /* they need CS_MIXING_MIXED, if there is a space */
-  celspan_grade *grade;      /* of the result; NULL: none. A reference */
+  celspan_grade *grade;      /* the grade of the result; NULL: none. A reference */
   bool isolates;             /* modes inside do not act on the backdrop of this object */
   bool is_luma;              /* MATTE: the strength is luma, not alpha */
   bool inverts;              /* MATTE: the strength is 1 minus the usual one */
@@ -153,7 +153,7 @@ typedef struct cs_primitive_data {
   bool is_box;              /* the outline is that of `box`, which has an area */
   int16_t depth;            /* levels of booleans and rostrums, with this object */
   uint16_t shape_count;     /* as primitive_count, but a mesh is one shape; 65535 at most */
-  uint16_t cut_count;       /* of these, the primitives that a difference cuts away */
+  uint16_t cut_count;       /* the cut count of these, the primitives that a difference cuts away */
   uint32_t primitive_count; /* primitives of the tree; a shared one counts each time */
   celspan_texture *texture; /* OUTLINE; never NULL */
   /* all kinds except BOOLEAN: own units; tight, but the bounds of a stroke only where tight
@@ -274,7 +274,7 @@ struct celspan_rostrum {
   double camera_rotation;
   cs_antialias antialias;
   celspan_space space;
-  celspan_grade *grade;   /* of the whole; NULL: none. A reference */
+  celspan_grade *grade;   /* the grade of the whole; NULL: none. A reference */
   celspan_texture *grain; /* over all of it; NULL: none. A reference */
 };
 

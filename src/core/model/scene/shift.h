@@ -35,7 +35,7 @@ struct cs_shift {
   celspan_cel *by; /* DISPLACED, and all that follows; a reference to a cel of one object */
   celspan_channel channels[2];
   double scale;
-  celspan_space space; /* of the channels: LINEAR or SRGB */
+  celspan_space space; /* the space of the channels: LINEAR or SRGB */
   bool moves_clear;    /* clear counts as black; else nothing moves there */
 };
 

@@ -52,7 +52,7 @@ CELSPAN_CHECKED celspan_status cs_dashes_add(celspan_context *context, cs_stroke
 typedef struct cs_parts {
   const cs_stroke *stroke;
   cs_ruler ruler;
-  size_t run; /* of the part that was read last */
+  size_t run; /* the run of the part that was read last */
 } cs_parts;
 
 void cs_parts_init(cs_parts *parts, const cs_stroke *stroke);

@@ -24,7 +24,7 @@ typedef struct outliner {
   const cs_stroke_view *view;
   cs_parts parts;
   cs_side side;
-  stretch *stretches; /* of one part */
+  stretch *stretches; /* the stretches of one part */
   size_t count, capacity;
   double extent;
   bool is_all_visible; /* the whole stroke is visible in the frame, if this is asked for */

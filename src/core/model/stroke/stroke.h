@@ -29,7 +29,7 @@
 typedef struct cs_stroke_part {
   uint32_t contour;  /* the contour that the pieces belong to */
   uint32_t first;    /* the piece in which the part begins */
-  uint32_t count;    /* of pieces */
+  uint32_t count;    /* the count of pieces */
   double begin, end; /* parameters, in the first and in the last piece */
   bool is_closed;    /* its end is its beginning: the part has no caps */
 } cs_stroke_part;
@@ -74,7 +74,7 @@ typedef struct cs_stroke {
   double miter;       /* as SVG's miter limit */
   double largest;     /* radius */
   celspan_box around; /* nothing of the stroke is outside it; not tight */
-  cs_hash hash;       /* of the line, the radii and the parts, and of how they are drawn */
+  cs_hash hash;       /* the hash of the line, the radii and the parts, and of how they are drawn */
 } cs_stroke;
 
 /* Makes a stroke from a description whose numbers have been checked. outline: the line from which
@@ -114,7 +114,7 @@ typedef struct cs_stroke_view {
   celspan_matrix matrix; /* own units to pixels; faces the viewer (model/geometry/matrix.h) */
   cs_boundary_frame frame;
   double tolerance;   /* pixels */
-  double top, bottom; /* of the rows that are asked for, pixels */
+  double top, bottom; /* the top and bottom of the rows that are asked for, pixels */
   double left, right; /* of the columns that are asked for, in pixels */
 } cs_stroke_view;
 

@@ -19,7 +19,7 @@
 typedef struct tapering {
   celspan_context *context;
   cs_stroke *out;
-  double length;   /* of the part */
+  double length;   /* the length of the part */
   double taper[2]; /* scaled down, if the part is shorter */
   bool is_round;   /* the factor is u (2 - u), where u is the factor of a straight taper */
   double way;      /* the length from the beginning of the part to the current place */

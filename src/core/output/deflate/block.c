@@ -30,7 +30,7 @@ typedef struct code_header {
   uint8_t extra[LITERALS + DISTANCES];
   uint8_t lengths[LENGTH_SYMBOLS];
   uint16_t codes[LENGTH_SYMBOLS];
-  uint64_t size; /* of the header in bits, without the block's first three */
+  uint64_t size; /* the size of the header in bits, without the block's first three */
 } code_header;
 
 static const uint8_t extra_bits[LENGTH_SYMBOLS] = {[REPEAT] = 2, [FEW_ZEROS] = 3, [MANY_ZEROS] = 7};

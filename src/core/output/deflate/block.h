@@ -88,7 +88,7 @@ enum {
 typedef struct cs_deflate_bits {
   celspan_status (*write)(void *user, celspan_context *context, const void *bytes, size_t size);
   void *user;
-  celspan_context *context; /* of the call in progress */
+  celspan_context *context; /* the context of the call in progress */
   celspan_status status;    /* the first failure of write, which is not called again after it */
   uint64_t bits;            /* bits that do not fill a byte yet */
   unsigned bit_count;       /* below 8 */

@@ -80,7 +80,7 @@ struct cs_deflate {
   uint64_t size;            /* uncompressed bytes of the segment so far */
   size_t zeros;             /* zeros at the end that are not tokens yet */
   bool ends_in_zeros;       /* the last byte in a token is 0, so zeros after it can match it */
-  cs_deflate_search search; /* of plain bytes */
+  cs_deflate_search search; /* the search of plain bytes */
   cs_deflate_block block;
 };
 

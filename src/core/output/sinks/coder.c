@@ -34,7 +34,7 @@ typedef struct coder_sink {
   cs_coder coder;
   int32_t width;
   unsigned char *row; /* from begin to end */
-  cs_shares shares;   /* of the inner sink, if there are several threads */
+  cs_shares shares;   /* the shares of the inner sink, if there are several threads */
 } coder_sink;
 
 static size_t row_size(const coder_sink *sink) {

@@ -19,7 +19,7 @@
 #define CS_WEBP_SIDE 16383
 
 typedef struct cs_picture_file {
-  celspan_context *context; /* of the call in progress, for put */
+  celspan_context *context; /* the context of the call in progress, for put */
   const cs_picture_module *module;
   cs_picture_writer *writer;
   cs_file *file;

@@ -22,7 +22,7 @@
 #define HAS(depth) (1u << (depth))
 
 typedef struct file_format {
-  const char *endings; /* of paths, each between spaces */
+  const char *endings; /* the endings of paths, each between spaces */
   const char *name;    /* the name in the module */
   const char *title;   /* in messages */
   int32_t side;        /* pixels, at most */
@@ -66,7 +66,7 @@ static const file_format formats[] = {
 
 typedef struct picture_sink {
   const file_format *format;
-  celspan_coding coding; /* of `pixels` */
+  celspan_coding coding; /* the coding of `pixels` */
   celspan_depth depth;   /* in the file */
   int bits;              /* how many bits of each value are used; 0: all */
   char *path, *title;    /* title: may be NULL */

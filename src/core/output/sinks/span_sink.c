@@ -21,7 +21,7 @@ enum { CHUNK = 4096 };
 /* The state of one thread that packs rows. */
 typedef struct packer {
   const celspan_coding *coding;
-  spanfile_writer *writer; /* of the file, or of the part that is packed */
+  spanfile_writer *writer; /* the writer of the file, or of the part that is packed */
   cs_single_colours colours;
   spanfile_run runs[CS_SINGLE_COLOURS_MOST];
   unsigned char chunk[CHUNK * 8];
@@ -29,7 +29,7 @@ typedef struct packer {
 
 typedef struct span_sink {
   size_t allocated;
-  celspan_context *context; /* of the call in progress, for put_bytes */
+  celspan_context *context; /* the context of the call in progress, for put_bytes */
   celspan_coding coding;
   cs_strip strip;
   spanfile_writer_desc desc; /* from begin on */

@@ -11,9 +11,9 @@
 #include "output/sinks/coder.h"
 
 typedef struct cs_ycc {
-  cs_coder coder;       /* of 8 bits */
+  cs_coder coder;       /* the coder of 8 bits */
   bool is_halved;       /* 4:2:0 */
-  unsigned char *bytes; /* of all planes; borrowed */
+  unsigned char *bytes; /* the bytes of all planes; borrowed */
   int32_t width, height;
   uint32_t *rows; /* two rows of the thread that began the sink */
 } cs_ycc;

@@ -39,7 +39,7 @@ cs_exit cs_change_lay_onion(cs_script *script, const cs_request *request,
 
 typedef struct cs_onion {
   int32_t counts[2];     /* frames before, after */
-  int32_t width, height; /* of the skins, in pixels */
+  int32_t width, height; /* the width and height of the skins, in pixels */
   const char *cel;       /* --cel; NULL: none */
   const char *labels;    /* for celspan watch, see verbs/onion.lua; NULL: a render */
 } cs_onion;

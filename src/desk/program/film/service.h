@@ -14,7 +14,7 @@
 typedef struct cs_session {
   celspan_context *context;
   const cs_request *request;
-  cs_exit outcome;      /* of the service that ended the verb; OK: no service did */
+  cs_exit outcome;      /* the outcome of the service that ended the verb; OK: no service did */
   cs_progress progress; /* frame_count 0: the verb does not count frames */
 } cs_session;
 

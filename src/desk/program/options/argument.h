@@ -26,7 +26,7 @@ typedef enum cs_fit { CS_FIT_STRETCH = 0, CS_FIT_CONTAIN, CS_FIT_COVER } cs_fit;
 
 typedef struct cs_given_antialias {
   celspan_antialias_mode mode;
-  celspan_filter_desc filter; /* of mode FILTER */
+  celspan_filter_desc filter; /* the filter of mode FILTER */
 } cs_given_antialias;
 
 /* What the layers of a file are. */
@@ -63,7 +63,7 @@ typedef struct cs_argument {
   const char *allowed; /* the allowed values, for messages: "--size: '12' is not ..." */
   bool (*read)(const struct cs_argument *kind, const char *text, void *field);
   double least, most; /* of a number, and of each number in a list */
-  char separator;     /* of two numbers or more */
+  char separator;     /* the separator of two numbers or more */
   const struct cs_choice *choices;
 } cs_argument;
 

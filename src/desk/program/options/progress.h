@@ -19,7 +19,7 @@ typedef struct cs_progress {
   size_t frame_count, frames_done;
   size_t copied, kept;   /* of the finished frames */
   const char *noun;      /* of the counted items: "frame", unless it is changed after the start */
-  const char *output;    /* of -o, for the log; NULL: there is none */
+  const char *output;    /* the output of -o, for the log; NULL: there is none */
   double started, shown; /* seconds of the monotonic clock */
   double pause;          /* the least seconds between two lines, or between two states of the bar */
 } cs_progress;

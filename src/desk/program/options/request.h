@@ -16,7 +16,7 @@ struct cs_request;
 typedef struct cs_option {
   const char *name;
   const char *value;       /* its name in the help; NULL: a flag */
-  const cs_argument *kind; /* of the value; NULL: a flag */
+  const cs_argument *kind; /* the kind of the value; NULL: a flag */
   const char *help;
 } cs_option;
 

@@ -46,7 +46,7 @@ typedef struct stage stage;
 typedef struct drawn {
   stage *stage;
   size_t item;     /* in the pipeline */
-  uint32_t number; /* of its request */
+  uint32_t number; /* the number of its request */
   int64_t frame;
   bool is_here; /* the thread of the verb draws it */
   atomic_bool is_given_up;

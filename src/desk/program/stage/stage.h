@@ -29,7 +29,7 @@ typedef struct cs_stage_picture {
   unsigned char *bytes;     /* owned */
   size_t size, capacity;
   size_t stride;         /* bytes of a row; 0 for a PNG */
-  cs_png_strips *strips; /* of a PNG that is being made */
+  cs_png_strips *strips; /* the strips of a PNG that is being made */
 } cs_stage_picture;
 
 /* p: all zero. It must be released, whatever this returns. Any thread. */

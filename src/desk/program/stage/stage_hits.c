@@ -13,9 +13,9 @@ typedef struct search {
   celspan_context *context;
   const cs_script *script;
   celspan_point point;
-  size_t count;     /* of the items found */
-  int depth;        /* of the items that are searched */
-  double share;     /* of the exposures of what is searched */
+  size_t count;     /* the count of the items found */
+  int depth;        /* the depth of the items that are searched */
+  double share;     /* the share of the exposures of what is searched */
   const char *part; /* the shot of a cut in which the search is; "": none. NULL: it is no cut */
 } search;
 

@@ -93,7 +93,7 @@ CELSPAN_API const char *celspan_svg_skipped(const celspan_svg *svg, size_t index
 typedef celspan_status (*celspan_svg_change)(void *user, celspan_context *context,
                                              celspan_object *part, celspan_object **out);
 typedef struct celspan_svg_changed {
-  const char *name; /* of a part or an element */
+  const char *name; /* the name of a part or an element */
   celspan_svg_change change;
   void *user;
 } celspan_svg_changed;

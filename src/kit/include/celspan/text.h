@@ -62,7 +62,7 @@ typedef struct celspan_text_desc {
   const char *language;   /* a BCP 47 tag such as "tr"; NULL: none */
   celspan_direction direction;
   celspan_texture *texture; /* kept; NULL: opaque black */
-  uint32_t face;            /* of fonts that are collections: the number of the font, from 0 */
+  uint32_t face; /* the face of fonts that are collections: the number of the font, from 0 */
   celspan_valign valign;
 } celspan_text_desc;
 
@@ -84,9 +84,9 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_create_text(celspan_co
  * the baseline. If the file lacks them, they are measured on its letters H and x. */
 typedef struct celspan_text_metrics {
   size_t struct_size;
-  double ascent, descent; /* of a line: above the baseline and below it */
+  double ascent, descent; /* the ascent and descent of a line: above the baseline and below it */
   double cap_height, x_height;
-  double width;  /* of the widest line */
+  double width;  /* the width of the widest line */
   double height; /* from the ascent of the first line to the descent of the last one */
   int32_t lines; /* 1 or more */
 } celspan_text_metrics;

@@ -42,8 +42,8 @@ typedef struct celspan_trace_shape {
   unsigned char colour[3];     /* sRGB; the object is painted with it, opaque */
   int32_t x, y;                /* a pixel of it */
   double area;                 /* in pixels of the picture */
-  const char *data;            /* of a closed path; NULL: a stroke */
-  const celspan_point *points; /* of a stroke: of a spline of degree 3 */
+  const char *data;            /* the data of a closed path; NULL: a stroke */
+  const celspan_point *points; /* the points of a stroke: of a spline of degree 3 */
   const double *widths;        /* one for each point */
   size_t point_count;
   bool is_closed; /* the stroke */

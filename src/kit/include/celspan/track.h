@@ -44,7 +44,7 @@ typedef struct celspan_sighting {
   /* maps places of the first frame to places of this one; the centre of the first pixel is (0,
    * 0) */
   celspan_matrix matrix;
-  uint32_t corner_count; /* of corners that are followed, at most 240 */
+  uint32_t corner_count; /* the corner count of corners that are followed, at most 240 */
   uint32_t agreeing_count;
   double error; /* pixels: the root mean square over the corners that agree */
 } celspan_sighting;

@@ -20,7 +20,7 @@ struct cs_userdata;
 struct cs_form;
 
 typedef struct cs_kind {
-  const char *name; /* of the metatable, "celspan.object" */
+  const char *name; /* the name of the metatable, "celspan.object" */
   void (*unref)(void *handle);
   /* The name of a value, and the line that made it; NULL: values of this kind have none. */
   celspan_status (*named)(celspan_context *context, void *handle, const char *name, void **out);

@@ -71,7 +71,7 @@ const cs_noun cs_noun_blur = {CS_FROM_OBJECT(blur, "How an object is blurred.")}
 
 typedef struct displace_fields {
   celspan_displace_desc desc;
-  int space; /* of cs_space_words */
+  int space; /* the space of cs_space_words */
 } displace_fields;
 
 static void create_displace(const cs_form *form, cs_userdata *value) {

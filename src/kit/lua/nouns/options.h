@@ -7,7 +7,7 @@
 /* The options of all functions, while they are read; each function uses only the options of its own
  * noun. The desc points into this struct and to the stack. */
 typedef struct cs_options {
-  cs_form form; /* of the table */
+  cs_form form; /* the form of the table */
   celspan_frame_desc desc;
   celspan_coding coding;
   const char *format;

@@ -33,7 +33,7 @@
 /* What is asked, and the index of the table `shared`. */
 typedef struct asked {
   lua_State *L;
-  double width, height; /* of the film */
+  double width, height; /* the width and height of the film */
   celspan_space space;
   int shared;
 } asked;

@@ -7,7 +7,7 @@
 
 typedef struct cs_own_space {
   bool is_given;
-  int word; /* of cs_space_words */
+  int word; /* the word of cs_space_words */
 } cs_own_space;
 
 #define CS_OWN_SPACE(desc, member, otherwise)                                                      \

@@ -40,7 +40,7 @@ typedef struct cs_guard {
   /* bytes of Lua; `told`: the bytes that the memory of the context knows, exact up to PIECE */
   size_t bytes, told;
   int depth;               /* the number of nested calls into the script */
-  cs_account_kind account; /* of the thread before the outermost call */
+  cs_account_kind account; /* the account of the thread before the outermost call */
   bool is_verb;            /* the outermost call is of a verb */
   bool is_refused;         /* Lua was refused memory in this call */
   bool is_scene_refused;   /* the scene was refused memory in this call */

@@ -29,7 +29,7 @@ typedef struct cs_match {
   const char *pattern_end;
   size_t steps; /* steps that are not charged yet */
   int depth;
-  int count; /* of captures */
+  int count; /* the count of captures */
   cs_capture captures[CS_CAPTURES_MOST];
 } cs_match;
 

@@ -13,9 +13,9 @@ typedef struct cs_pdf {
   cs_pdf_output output;
   cairo_surface_t *surface;
   cairo_t *page; /* NULL: between two pages */
-  double stroke; /* of the lines of the group */
+  double stroke; /* the stroke of the lines of the group */
   cs_plotter_picture picture;
-  unsigned char *bytes; /* of its PNG file */
+  unsigned char *bytes; /* the bytes of its PNG file */
   size_t size, capacity, read;
   cairo_status_t failure; /* the first one outside of the page */
 } cs_pdf;

@@ -38,8 +38,8 @@ typedef struct cs_decode {
   cs_kind_file file;         /* without its descriptor */
   cs_raw planes;
   char pixels[16], decoder[16]; /* names of ffmpeg */
-  cs_cache_key key;             /* of picture 0 */
-  unsigned char *marks;         /* of each picture */
+  cs_cache_key key;             /* the key of picture 0 */
+  unsigned char *marks;         /* the marks of each picture */
   pthread_mutex_t lock;         /* guards what follows, and the marks */
   struct cs_decode *running;    /* the next one with a worker */
   bool is_running;
@@ -47,7 +47,7 @@ typedef struct cs_decode {
   size_t next;                    /* the place after the last picture that came */
   size_t begin;                   /* where the worker has begun */
   uint64_t decoded, begun;        /* pictures that came, of all workers, and these */
-  int64_t times[CS_DECODE_TIMES]; /* of pictures that have not been read; a ring */
+  int64_t times[CS_DECODE_TIMES]; /* the times of pictures that have not been read; a ring */
   size_t first_time, time_count;
   uint64_t heard; /* messages of the workers */
   cs_words said;  /* the first line that a worker said */

@@ -31,7 +31,7 @@ typedef struct reading {
   int video;                /* the stream of the movie; -1: not found yet */
   int64_t promised, length; /* of it: pictures, and ticks of all that are shown; 0: not given */
   char line[LINE];
-  size_t size; /* of the line */
+  size_t size; /* the size of the line */
   bool is_long;
 } reading;
 

@@ -17,7 +17,7 @@
 typedef struct cs_movie {
   atomic_size_t references;
   cs_memory *memory;
-  cs_hash hash; /* of the file's name and state */
+  cs_hash hash; /* the hash of the file's name and state */
   cs_listing listing;
   cs_decode decode;
 } cs_movie;

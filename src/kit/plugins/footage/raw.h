@@ -15,7 +15,7 @@
 /* What the planes of a raw picture hold, and what their codes mean. */
 typedef struct cs_raw {
   int32_t width, height; /* pixels, as stored */
-  int bits;              /* of a sample: 8 to 16; of more than 8 in two bytes, the low one first */
+  int bits; /* the bits of a sample: 8 to 16; of more than 8 in two bytes, the low one first */
   bool has_colour, is_rgb; /* is_rgb: planes of G', B', R' instead of Y', Cb, Cr */
   bool has_alpha, is_full; /* is_full: codes use their whole range */
   bool is_made;            /* ffmpeg makes R'G'B' of another kind of colours, in the whole range */

@@ -9,7 +9,7 @@
 typedef struct plane {
   const unsigned char *at;
   int32_t width, height;
-  int bytes; /* of a sample */
+  int bytes; /* the bytes of a sample */
 } plane;
 
 static int32_t halved(int32_t size, int32_t by) { return (size + by - 1) / by; }

@@ -19,7 +19,7 @@ struct cs_picture_writer {
   void *user;
   size_t row; /* bytes */
   cs_worker *worker;
-  char name[]; /* of the file */
+  char name[]; /* the name of the file */
 };
 
 /* ---------------------------------------------------------------- asking */

@@ -16,7 +16,7 @@ typedef struct cs_media {
   const char *noun, *unit, *path; /* for messages: "sound", "samples"; borrowed */
   const char *program;            /* which the worker becomes */
   int pipe, socket;               /* what the worker writes, and says; -1: closed */
-  uint32_t number;                /* of the worker in the zygote */
+  uint32_t number;                /* the number of the worker in the zygote */
   bool has_worker;
   cs_words words;    /* its last ones */
   double seconds;    /* the most seconds until more arrives; 0: any */

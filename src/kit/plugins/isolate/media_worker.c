@@ -16,7 +16,7 @@ enum { MEDIA = 3, ARGUMENTS = 64, TEXTS = 1024 };
 typedef struct command_line {
   const char *list[ARGUMENTS]; /* the program first, NULL at the end */
   size_t count;
-  char texts[TEXTS]; /* of the arguments that contain numbers */
+  char texts[TEXTS]; /* the texts of the arguments that contain numbers */
   size_t size;
 } command_line;
 

@@ -106,7 +106,7 @@ typedef struct cs_message_output {
 
 typedef struct cs_message {
   int32_t kind, status; /* a celspan_status */
-  uint32_t number;      /* of the worker in the zygote, or of the reader in the worker */
+  uint32_t number;      /* the number of the worker in the zygote, or of the reader in the worker */
   union {
     cs_message_start start;
     cs_message_open open;

@@ -72,7 +72,7 @@ static bool find_refusal(const file_key *key, cs_picture_failure *failure) {
 struct cs_picture_reader {
   char *file, *layer, *space; /* layer and space: may be NULL */
   int subimage;
-  file_key key;      /* of the file that was opened */
+  file_key key;      /* the key of the file that was opened */
   cs_worker *worker; /* NULL: none; a worker may have ended */
   uint32_t number;   /* the number of the reader in the worker */
 };

@@ -24,7 +24,7 @@ typedef struct worker_loop {
   int socket;
   unsigned char *shared;
   cs_picture_reader *readers[READERS];
-  int descriptors[READERS]; /* of the files of readers */
+  int descriptors[READERS]; /* the descriptors of the files of readers */
   cs_picture_writer *writer;
 } worker_loop;
 

@@ -23,7 +23,7 @@ bool cs_worker_loop_is_starved(int ending);
 
 typedef struct cs_worker_desc {
   const cs_picture_module *module; /* for all tasks except SAMPLES */
-  const cs_colour_module *colour;  /* of SAMPLES */
+  const cs_colour_module *colour;  /* the colour of SAMPLES */
   /* the files that may be read, which the kernel must enforce; NULL: all files, and the process
    * need not be confined */
   const cs_roots *roots;

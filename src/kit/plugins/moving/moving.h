@@ -31,7 +31,7 @@ struct cs_moving {
   const cs_moving_format *format;
   void *self;
   char *name, *metadata; /* owned; metadata: in XMP, see cs_moving_open */
-  unsigned char *pixels; /* of the picture whose rows arrive; owned */
+  unsigned char *pixels; /* the pixels of the picture whose rows arrive; owned */
   size_t row;            /* bytes */
   int32_t rows;          /* that have arrived */
 };

@@ -25,7 +25,7 @@ struct ConversionRequest {
 
 struct Conversion {
   OCIO_NAMESPACE::ConstCPUProcessorRcPtr processor;
-  std::string name; /* of the space, or "VIEW on DISPLAY" */
+  std::string name; /* the name of the space, or "VIEW on DISPLAY" */
 };
 
 /* A conversion from or to a space is kept, and made again when the file has changed. */

@@ -20,7 +20,7 @@ typedef struct cs_raster {
   float primaries[8];
   int32_t width, height;
   int channels;     /* in `pixels`: 1 grey, 2 grey and alpha, 3 colours, 4 colours and alpha */
-  int bits;         /* of a value: 8, 16, or 32 for floats */
+  int bits;         /* the bits of a value: 8, 16, or 32 for floats */
   bool is_whole;    /* the floats are shares of whole numbers in the file */
   bool lacks_alpha; /* the file has none: that in `pixels` says where the file has pixels */
   int orientation;  /* TIFF's: 1 upright .. 8 */

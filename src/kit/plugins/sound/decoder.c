@@ -14,7 +14,7 @@
 #include "plugins/isolate/media.h"
 
 typedef struct decoder {
-  celspan_context *context; /* of the caller that opened it, for memory */
+  celspan_context *context; /* the context of the caller that opened it, for memory */
   size_t size;              /* bytes of this structure */
   cs_media media;
   size_t moment; /* bytes */

@@ -18,20 +18,20 @@ enum {
 /* One sound while it is mixed. Positions are in moments of the film. */
 typedef struct part {
   cs_mix_sound sound;
-  int64_t origin; /* of its first sample */
+  int64_t origin; /* the origin of its first sample */
   double end;     /* second at which it ends by itself */
   bool is_whole;  /* the end is known exactly; otherwise it is only known to be late enough */
   int64_t heard, silent;   /* it is heard from `heard` up to, but not including, `silent` */
   cs_sound_stream samples; /* owned; without one it is closed */
-  int64_t place;           /* of the next sample that is read */
+  int64_t place;           /* the place of the next sample that is read */
   float *kept;      /* the counted samples, if they are few, so that the file is not opened again */
-  size_t capacity;  /* of the kept samples; 0: they belong to another part */
+  size_t capacity;  /* the capacity of the kept samples; 0: they belong to another part */
   int32_t channels; /* of them */
   int64_t moments;
 } part;
 
 typedef struct mix {
-  celspan_context *context; /* of the caller that opened it, for memory */
+  celspan_context *context; /* the context of the caller that opened it, for memory */
   part *parts;              /* owned */
   size_t count, open;
   size_t kept;           /* samples of all parts */

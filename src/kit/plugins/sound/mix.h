@@ -26,7 +26,7 @@ enum {
 };
 
 typedef struct cs_mix_sound {
-  const char *path;  /* of a file, or an address that contains it */
+  const char *path;  /* the path of a file, or an address that contains it */
   const char *tried; /* another path that does not exist either, or NULL */
   const char *stem;  /* the name of the part of the mix that it belongs to */
   double start;      /* second of the film at which the first sample would be heard */

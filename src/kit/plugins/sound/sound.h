@@ -11,8 +11,8 @@
 #include "common/sound_stream.h"
 
 typedef struct cs_sound_request {
-  const char *path;       /* of a file, or an address that contains it (common/address.h) */
-  const char *tried;      /* other paths that do not exist either, for messages; NULL: none */
+  const char *path;  /* the path of a file, or an address that contains it (common/address.h) */
+  const char *tried; /* other paths that do not exist either, for messages; NULL: none */
   int32_t rate, channels; /* the wanted ones; 0: those of the file */
   double speed;           /* 2: twice as fast, without changing the pitch; 0 and 1: unchanged */
 } cs_sound_request;
@@ -45,7 +45,7 @@ CELSPAN_CHECKED celspan_status cs_sound_each(celspan_context *context,
 typedef struct cs_decoder_desc {
   const char *path;       /* for messages */
   const char *kind;       /* the name of its format in ffmpeg */
-  int descriptor;         /* of the file; borrowed until it is open */
+  int descriptor;         /* the descriptor of the file; borrowed until it is open */
   int32_t rate, channels; /* the wanted ones; 0: those of the file */
   double speed;           /* 1: unchanged */
 } cs_decoder_desc;

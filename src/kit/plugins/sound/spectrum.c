@@ -18,7 +18,7 @@ typedef struct listening {
   double weights[WINDOW], sines[HALF], cosines[HALF];
   double real[WINDOW], imaginary[WINDOW];
   double power[HALF];                  /* by frequency, summed over the channels */
-  double edges[CS_SPECTRUM_BANDS + 1]; /* of the bands, in frequencies of the transform */
+  double edges[CS_SPECTRUM_BANDS + 1]; /* the edges of the bands, in frequencies of the transform */
 } listening;
 
 /* Hann's window, the angles of the transform, and the bands. */

@@ -41,7 +41,7 @@ struct cs_document {
   const cs_zip *zip;
   celspan_painting *painting;
   const cs_document_format *format;
-  const char *const *attributes; /* of the element that begins */
+  const char *const *attributes; /* the attributes of the element that begins */
   uint64_t line;
   celspan_status status;
   size_t group;       /* the innermost open one; CS_CONTENTS_NONE: none */

@@ -27,7 +27,7 @@ typedef struct cs_krita_tiles_form {
   /* In: the rectangle of the painting in the layer's units; out: the rectangle of the rows. */
   int32_t x, y, width, height;
   bool is_grey;
-  int bits;                /* of a channel: 8 or 16 */
+  int bits;                /* the bits of a channel: 8 or 16 */
   int pixel_size;          /* bytes */
   unsigned char beyond[8]; /* the pixel for places without a tile */
   int64_t scanned;         /* out: the bytes of the tiles */

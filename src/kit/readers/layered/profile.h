@@ -22,7 +22,7 @@
 typedef struct cs_profile {
   cs_profile_codes codes;
   char name[64];           /* printable ASCII; "": not known */
-  cs_profile_table *table; /* of CONVERTED: the painting's */
+  cs_profile_table *table; /* the table of CONVERTED: the painting's */
 } cs_profile;
 
 /* Reads the profile of the request. Errors: LIMIT for too many different profiles; those of

@@ -20,7 +20,7 @@ typedef enum cs_profile_codes {
 typedef struct cs_profile_table {
   atomic_size_t references;
   cs_memory *memory; /* borrowed from the painting or surface that has a reference */
-  cs_hash hash;      /* of the request */
+  cs_hash hash;      /* the hash of the request */
   cs_profile_codes codes;
   cs_colour_table light;
 } cs_profile_table;

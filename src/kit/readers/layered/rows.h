@@ -33,7 +33,7 @@ struct cs_rows_source {
   const cs_rows_kind *kind;
   cs_memory *memory;     /* borrowed from the painting */
   int32_t width, height; /* 1 or more */
-  int bits;              /* of a channel: 8 or 16 */
+  int bits;              /* the bits of a channel: 8 or 16 */
 };
 
 struct cs_rows {

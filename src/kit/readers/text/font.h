@@ -23,7 +23,7 @@ typedef struct cs_font {
   size_t size;
   pthread_mutex_t lock; /* protects the members below */
   cs_outline **glyphs;  /* by their numbers; NULL: not made yet */
-  size_t points;        /* of all outlines that were made */
+  size_t points;        /* the points of all outlines that were made */
 } cs_font;
 
 /* How a glyph is placed: font units times scale, then moved. */

@@ -70,7 +70,7 @@ typedef struct cs_layout {
   cs_text_letter *letters;
   size_t letter_count, letter_capacity;
   int32_t line; /* the number of the next line */
-  double width; /* of the widest line */
+  double width; /* the width of the widest line */
 } cs_layout;
 
 /* Lays out a text by its desc, which has not been checked yet: fonts, characters, lines. The layout

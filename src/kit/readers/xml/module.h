@@ -16,7 +16,7 @@
 
 typedef struct cs_art_failure {
   celspan_status status;
-  uint64_t line; /* of the document, from 1; 0: not known */
+  uint64_t line; /* the line of the document, from 1; 0: not known */
   char text[512];
 } cs_art_failure;
 

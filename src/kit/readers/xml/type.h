@@ -30,7 +30,7 @@
 typedef struct cs_type_font cs_type_font;
 
 typedef struct cs_type_font_info {
-  uint32_t units; /* of an em, 16..16384 */
+  uint32_t units; /* the units of an em, 16..16384 */
   int32_t ascent; /* how far lines reach above and below the baseline; their sum is above 0 */
   int32_t descent;
   int32_t cap_height, x_height; /* of capitals, and of small letters without ascenders */
@@ -40,7 +40,7 @@ typedef struct cs_type_font_info {
 
 typedef struct cs_type_glyph {
   uint32_t glyph;     /* 0: the font has no glyph for these characters */
-  uint32_t character; /* the first of its characters */
+  uint32_t character; /* of its characters */
   int32_t advance, x_offset, y_offset;
 } cs_type_glyph;
 

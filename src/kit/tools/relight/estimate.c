@@ -38,7 +38,7 @@ CS_DESCRIBE(celspan_light_estimate_desc, picture, .colour = {0.18, 0.18, 0.18})
 
 /* One part of the picture. */
 typedef struct part {
-  double sum[4]; /* of premultiplied light, and of alpha */
+  double sum[4]; /* the sum of premultiplied light, and of alpha */
   double x, y;   /* sums of the places of its pixels */
   double pixels;
 } part;

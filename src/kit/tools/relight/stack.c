@@ -40,7 +40,7 @@ struct celspan_stack {
   atomic_size_t references;
   cs_memory *memory;
   int32_t width, height;
-  celspan_space space; /* of the frame and of its rostrum */
+  celspan_space space; /* the space of the frame and of its rostrum */
   size_t light_count;
   celspan_stack_light *own; /* the rostrum's lights */
   cs_addend *fronts, *backs;
@@ -91,7 +91,7 @@ static celspan_status find_lights(celspan_context *context, const celspan_rostru
 typedef struct taking {
   cs_addend_writer colours, through;
   cs_addend_budget budget;
-  const celspan_frame_desc *frame; /* of the whole */
+  const celspan_frame_desc *frame; /* the frame of the whole */
   size_t done, total;              /* frames */
 } taking;
 

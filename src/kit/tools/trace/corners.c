@@ -24,7 +24,7 @@ typedef struct finder {
   const cs_points *points;
   bool is_closed;
   const cs_fit_rules *rules;
-  cs_stretches stretches; /* of the range that is examined */
+  cs_stretches stretches; /* the stretches of the range that is examined */
   cs_corner_list *out;
 } finder;
 

@@ -13,7 +13,7 @@ typedef struct maker {
   celspan_context *context;
   const cs_material *material;
   const cs_borders *borders;
-  celspan_point *places; /* of nodes */
+  celspan_point *places; /* the places of nodes */
   cs_fit_rules rules;
   bool is_exact; /* the borders of the pixels themselves */
   cs_curves *out;

@@ -90,7 +90,7 @@ static void label_plain(const work *w) {
 typedef struct mixture {
   cs_light4 light;
   bool is_about[256]; /* the labels of plain pixels around it */
-  float error;        /* of the best explanation so far, squared */
+  float error;        /* the error of the best explanation so far, squared */
   unsigned char label;
 } mixture;
 

@@ -14,7 +14,7 @@ typedef struct cs_shape {
   double area;  /* pixels */
   char *data;   /* path data; NULL: a stroke */
   size_t data_size;
-  celspan_point *points; /* of a stroke */
+  celspan_point *points; /* the points of a stroke */
   double *widths;
   size_t point_count;
   bool is_closed;

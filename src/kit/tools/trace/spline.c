@@ -9,7 +9,7 @@ enum { DEGREE = 3, STEPS = 80 };
 
 typedef struct fitter {
   const cs_station *stations;
-  size_t count; /* of stations */
+  size_t count; /* the count of stations */
   bool is_closed;
   double *parameters; /* 0..1 along the line */
   size_t controls;

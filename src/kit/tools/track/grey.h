@@ -21,7 +21,7 @@ typedef struct cs_grey {
 
 typedef struct cs_grey_levels {
   cs_memory *memory;
-  int32_t count; /* of levels */
+  int32_t count; /* the count of levels */
   cs_grey levels[CS_GREY_LEVELS];
 } cs_grey_levels;
 

@@ -30,7 +30,7 @@ typedef struct cs_patch {
   float slope_x[CS_PATCH_COUNT]; /* for each pixel of the patch */
   float slope_y[CS_PATCH_COUNT];
   double inverse[3]; /* xx, xy, yy of the inverse of the sum of slope times slope */
-  double deviation;  /* of the values */
+  double deviation;  /* the deviation of the values */
 } cs_patch;
 
 /* False if the patch is not wholly in the picture, or has no texture in one direction. */

@@ -44,7 +44,7 @@ struct celspan_tracker {
   celspan_context *context;
   celspan_motion model;
   cs_grey_levels first;
-  size_t count; /* of corners */
+  size_t count; /* the count of corners */
   celspan_point corners[CS_FEATURES_MOST];
   cs_patch *patches[CS_GREY_LEVELS];               /* by level, `count` of each */
   bool is_patch[CS_GREY_LEVELS][CS_FEATURES_MOST]; /* whether there is a patch at that level */

@@ -27,7 +27,7 @@ typedef struct writing {
   cs_apart_contents contents;
   cs_apart apart;
   cs_cryptomatte crypto; /* used if there are mattes */
-  cs_sources sources;    /* of the frame, then of each layer */
+  cs_sources sources;    /* the sources of the frame, then of each layer */
   celspan_frame_desc frame;
   celspan_coding coding;
   int32_t width, height, lines; /* lines: rows that are made together */
@@ -37,12 +37,12 @@ typedef struct writing {
   char (*names)[CS_EXR_NAME + 1]; /* of the channels of layers */
   char *list;                     /* the names of the layers */
   size_t list_size;
-  unsigned char *rows; /* of all layers, one after the other, and of the mattes */
-  void *memory;        /* of the file */
+  unsigned char *rows; /* the rows of all layers, one after the other, and of the mattes */
+  void *memory;        /* the memory of the file */
   size_t memory_size;
   cs_exr exr;
   cs_file *file;
-  celspan_status status; /* of the file */
+  celspan_status status; /* the status of the file */
 } writing;
 
 static bool has_mattes(const writing *w) { return w->contents.mattes != CS_APART_MATTES_NONE; }

@@ -23,7 +23,7 @@ static celspan_status name_file(const cs_apart *apart, const char *path, size_t 
 typedef struct writing {
   cs_apart apart;
   cs_apart_progress progress;
-  size_t place; /* of the names of layers in the path */
+  size_t place; /* the place of the names of layers in the path */
   const char *path;
   const celspan_file_desc *file;
 } writing;

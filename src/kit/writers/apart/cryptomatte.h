@@ -30,8 +30,8 @@ typedef struct cs_cryptomatte {
   int32_t width;
   int32_t lines;         /* rows that are made together */
   unsigned char *alphas; /* their pixels */
-  float *weights;        /* of a pixel, one a matte, for each row that is made together */
-  uint32_t *ids;         /* of the mattes */
+  float *weights; /* the weights of a pixel, one a matte, for each row that is made together */
+  uint32_t *ids;  /* the ids of the mattes */
   char *manifest;
   size_t manifest_size;                     /* as allocated */
   const char *layer;                        /* "CryptoCel" or "CryptoName" */

@@ -21,7 +21,7 @@ typedef struct cs_join_part {
   uint64_t size;    /* bytes of the file */
   int32_t width, height;
   cs_strip strip;
-  cs_hash form;            /* of all properties that the strips of a picture have in common */
+  cs_hash form; /* the form of all properties that the strips of a picture have in common */
   uint64_t body, body_end; /* the bytes that contain the rows; PNG: body_end is where IEND begins */
 } cs_join_part;
 
@@ -49,7 +49,7 @@ typedef struct cs_joining {
 
 typedef struct cs_join_format {
   const char *name;       /* in messages */
-  const char *endings[3]; /* of the output's name; NULL after the last one */
+  const char *endings[3]; /* the endings of the output's name; NULL after the last one */
   /* Whether a file with this beginning is of the format. */
   bool (*claims)(const unsigned char start[CS_JOIN_START]);
   /* Fills in all fields of an open part. Errors: INPUT. */

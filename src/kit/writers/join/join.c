@@ -16,7 +16,7 @@ typedef struct job {
   const char *const *paths;
   size_t count;
   const char *output;
-  const cs_join_format *format; /* of the first part */
+  const cs_join_format *format; /* the format of the first part */
   cs_join_part first;           /* closed */
   int32_t row;                  /* the next row */
 } job;

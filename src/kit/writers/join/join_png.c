@@ -25,8 +25,8 @@ enum { SIDE_MOST = 1048576, SIZE_MOST = 0x7fffffff };
 static const char IMAGE_DATA[] = "IDAT";
 
 typedef struct chunk {
-  uint64_t offset; /* of its head */
-  uint32_t size;   /* of its data */
+  uint64_t offset; /* the offset of its head */
+  uint32_t size;   /* the size of its data */
   char type[5];
   unsigned char tail[CS_PNG_CHUNK_TAIL];
 } chunk;

@@ -88,7 +88,7 @@ typedef struct gradient {
   celspan_context *context;
   const planefile_plane *plane;
   const planefile_band *of;
-  uint32_t number; /* of the cell */
+  uint32_t number; /* the number of the cell */
   double from, to;
 } gradient;
 

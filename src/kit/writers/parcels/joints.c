@@ -17,7 +17,7 @@ enum { ROOT_STEPS = 8 };
  * each leads to another one, and the last of them to itself. */
 typedef struct tree_end {
   uint32_t next;
-  uint32_t count; /* of the last one: how many ends lead to it */
+  uint32_t count; /* the count of the last one: how many ends lead to it */
   double extent;  /* how far the plane's rounding may have moved it along its height */
 } tree_end;
 

@@ -21,7 +21,7 @@ typedef struct cs_plot_desc {
   int32_t precision;     /* digits after the point, 0 to 9; PDF has a grid of its own */
   double scale;          /* pixels for each film unit of what becomes a picture */
   int32_t width, height; /* the size in pixels that the drawing is for; 0: the film's */
-  const char *title;     /* of the film; NULL: none; borrowed until the file ends */
+  const char *title;     /* the title of the film; NULL: none; borrowed until the file ends */
   bool is_pdf;           /* instead of SVG; a pixel of the size is then a point */
 } cs_plot_desc;
 

@@ -12,7 +12,7 @@
 typedef struct cs_plot_text {
   celspan_context *context;
   cs_file *file;
-  const char *title; /* of the film; NULL: none; borrowed */
+  const char *title; /* the title of the film; NULL: none; borrowed */
   int precision;
   double grid;              /* steps in a unit */
   int64_t x, y;             /* where the path is */

@@ -27,10 +27,10 @@ typedef enum cs_plotter_kind {
 
 typedef struct cs_plotter_path {
   cs_plotter_kind kind;
-  const char *name;          /* of a clip; the rest is for the others */
-  uint32_t number;           /* of the fill */
+  const char *name;          /* the name of a clip; the rest is for the others */
+  uint32_t number;           /* the number of the fill */
   const cs_fill *fill;       /* FLAT, LINEAR or RADIAL */
-  const cs_fill_stop *stops; /* of this fill */
+  const cs_fill_stop *stops; /* the stops of this fill */
 } cs_plotter_path;
 
 typedef struct cs_plotter_group {
@@ -81,7 +81,7 @@ typedef struct cs_plotter {
 
 typedef struct cs_pdf_output {
   const char *maker; /* the program, for the head of the file; copied */
-  const char *title; /* of the film, likewise; NULL: none */
+  const char *title; /* the title of the film, likewise; NULL: none */
   /* Appends bytes to the file; false: that failed. */
   bool (*put)(void *user, const void *bytes, size_t size);
   void *user;

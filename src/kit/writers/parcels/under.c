@@ -105,7 +105,7 @@ typedef struct flat_line {
   double y, x0, x1;
   bool is_floor; /* the parcel is above it */
   uint32_t fill;
-  double thickness; /* of its loop */
+  double thickness; /* the thickness of its loop */
 } flat_line;
 
 static inline bool is_before(const flat_line *a, const flat_line *b) {
@@ -118,7 +118,7 @@ static inline bool is_before(const flat_line *a, const flat_line *b) {
 CS_SORT_DEFINE(sort_flats, flat_line, is_before)
 
 typedef struct flat_list {
-  const double *thickness; /* of loops */
+  const double *thickness; /* the thickness of loops */
   flat_line *all;
   size_t count, capacity;
 } flat_list;

@@ -7,7 +7,7 @@
 
 /* A part of a border. */
 typedef struct cs_under_line {
-  uint32_t rank; /* of its fill */
+  uint32_t rank; /* the rank of its fill */
   bool is_thin;  /* so is its fill there, in front of which are the lines of others */
   bool is_flat;  /* a horizontal line, which no arc has: from..to; else an arc */
   uint32_t arc;
@@ -16,8 +16,8 @@ typedef struct cs_under_line {
 
 typedef struct cs_under {
   uint32_t *order;      /* the numbers of all fills, from the thinnest to the thickest */
-  uint32_t *ranks;      /* of each fill its place among them */
-  double *loops;        /* of each loop, how thick its part of the fill is */
+  uint32_t *ranks;      /* the ranks of each fill its place among them */
+  double *loops;        /* the loops of each loop, how thick its part of the fill is */
   cs_under_line *lines; /* thin ones and others, each by rank */
   size_t line_count, line_capacity;
   size_t fill_count, loop_count;

@@ -34,13 +34,13 @@ typedef struct cs_photoshop_layer {
   const char *name; /* UTF-8 of at most 255 bytes; borrowed */
   celspan_blend blend;
   double opacity;                        /* rounded to steps of 1 / CS_PHOTOSHOP_OPACITY */
-  uint32_t sizes[CS_PHOTOSHOP_CHANNELS]; /* of its packed channels */
+  uint32_t sizes[CS_PHOTOSHOP_CHANNELS]; /* the sizes of its packed channels */
 } cs_photoshop_layer;
 
 /* The packed rows of a picture, which wait. */
 typedef struct cs_photoshop_rows {
   int channels;
-  uint16_t *sizes; /* of the rows, channel after channel */
+  uint16_t *sizes; /* the sizes of the rows, channel after channel */
   size_t size_count;
   cs_file *waiting; /* of each row all channels */
 } cs_photoshop_rows;
@@ -49,13 +49,13 @@ typedef struct cs_photoshop {
   celspan_context *context;
   const char *path;           /* borrowed */
   celspan_coding coding;      /* resolved: 8 or 16 bits, straight */
-  int32_t width, height;      /* of all pictures; at most CS_PHOTOSHOP_SIDE */
+  int32_t width, height;      /* the width and height of all pictures; at most CS_PHOTOSHOP_SIDE */
   bool is_opaque;             /* the merged picture */
   cs_photoshop_layer *layers; /* borrowed; their sizes are filled in */
   size_t count;
   cs_file *file;
   cs_photoshop_rows merged;
-  uint64_t start, end; /* of the list of layers, from their number on */
+  uint64_t start, end; /* the start and end of the list of layers, from their number on */
 } cs_photoshop;
 
 /* Creates the file. All fields down to `count` are set, the others are 0. The file must be ended,

@@ -53,7 +53,7 @@ typedef struct cs_plane_facts {
   size_t parts; /* bands of the file */
   size_t borders, curves;
   size_t colours, gradients; /* cells of one colour; all other cells */
-  size_t pictures;           /* of the file, of this frame and those before it */
+  size_t pictures;           /* the pictures of the file, of this frame and those before it */
 } cs_plane_facts;
 cs_plane_facts cs_plane_count(const celspan_plane *plane);
 

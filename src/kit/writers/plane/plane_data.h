@@ -17,7 +17,7 @@ struct celspan_plane {
   cs_memory *memory;
   celspan_plane *whole; /* owned: the plane of another frame of the film, which has the bytes; or
                            NULL */
-  unsigned char *bytes; /* of the file */
+  unsigned char *bytes; /* the bytes of the file */
   size_t size, capacity;
   planefile_plane *plane;
 };

@@ -21,8 +21,8 @@
 typedef struct cs_record_source {
   celspan_context *context;
   const cs_stack *stack;
-  struct cs_defocus *const *defocus; /* of the defocused layers */
-  float weight;                      /* of everything that is made */
+  struct cs_defocus *const *defocus; /* the defocus of the defocused layers */
+  float weight;                      /* the weight of everything that is made */
   bool is_coded;                     /* what is shown becomes 8-bit codes */
   /* for each shade, then each image, then each defocused layer: the number of its axis in the
    * record plus 1; 0: it has no axis yet */

@@ -25,19 +25,19 @@ static inline celspan_point cs_record_unit(planefile_grid grid) {
 typedef struct cs_record_picture cs_record_picture; /* the source of its pixels: pictures.c */
 
 typedef struct cs_recording {
-  planefile_grid grid; /* of all places */
+  planefile_grid grid; /* the grid of all places */
   planefile_point *points;
   planefile_piece *pieces;
   planefile_chain *chains;
   planefile_border *borders;
   planefile_cell *cells;
-  planefile_program *programs; /* of the cells */
+  planefile_program *programs; /* the programs of the cells */
   planefile_step *steps;
   planefile_axis *axes;
   planefile_stop *stops;
   planefile_picture *pictures;
-  cs_record_picture *sources; /* of the pictures */
-  celspan_status status;      /* of reading pixels: the first failure */
+  cs_record_picture *sources; /* the sources of the pictures */
+  celspan_status status;      /* the status of reading pixels: the first failure */
   size_t point_count, point_capacity;
   size_t piece_count, piece_capacity;
   size_t chain_count, chain_capacity;

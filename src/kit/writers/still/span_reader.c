@@ -19,12 +19,12 @@ struct cs_span_reader {
   uint64_t bytes;
   spanfile_reader *reader;
   spanfile_info info;
-  float light[256]; /* of an 8-bit sRGB code */
+  float light[256]; /* the light of an 8-bit sRGB code */
   celspan_span *spans;
   size_t span_capacity;
-  float *colours; /* of the row's arrays */
+  float *colours; /* the colours of the row's arrays */
   size_t colour_capacity;
-  unsigned char *pixels; /* of one array, as in the file */
+  unsigned char *pixels; /* the pixels of one array, as in the file */
   size_t pixel_capacity;
   char path[];
 };

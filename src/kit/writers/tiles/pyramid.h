@@ -27,11 +27,11 @@ typedef enum cs_pyramid_layout { CS_PYRAMID_DZI = 0, CS_PYRAMID_IIIF } cs_pyrami
 
 typedef struct cs_pyramid {
   cs_pyramid_layout layout;
-  int32_t width, height; /* of the frame */
+  int32_t width, height; /* the width and height of the frame */
   int32_t tile, overlap; /* pixels; the overlap is added on sides that have a neighbour */
-  const char *folder;    /* of all files */
+  const char *folder;    /* the folder of all files */
   const char *name;
-  const char *ending; /* of a tile: "png", "jpg" */
+  const char *ending; /* the ending of a tile: "png", "jpg" */
 } cs_pyramid;
 
 /* One tile. */

@@ -31,8 +31,8 @@ typedef struct cs_tile_known {
 typedef struct cs_tile_output {
   celspan_context *context;
   const cs_pyramid *pyramid;
-  celspan_file_desc file; /* of every tile */
-  celspan_coding coding;  /* of the file; resolved */
+  celspan_file_desc file; /* the file of every tile */
+  celspan_coding coding;  /* the coding of the file; resolved */
   bool skips_empty;
   unsigned char empty[16]; /* the coded pixel of an empty tile */
   cs_tile_known known;

@@ -21,7 +21,7 @@ typedef struct cs_svg_facts {
   uint32_t number, line;     /* number: among all elements of the file, from 1 */
   const char *tag, *classes; /* classes: NULL if there are none; both in the arena */
   char fill[8];              /* "#rrggbb" for a shape or text; "": it has no flat colour */
-  cs_mark place;             /* of its objects: "nell.svg", line 12; without a name */
+  cs_mark place;             /* the place of its objects: "nell.svg", line 12; without a name */
 } cs_svg_facts;
 
 typedef struct cs_svg_item {
@@ -67,7 +67,7 @@ typedef struct cs_svg_file {
   const celspan_svg_font *fonts;
   size_t font_count;
   uint64_t device, number; /* the identity of the file */
-  cs_hash key;             /* of the file as it was, and of how it is read */
+  cs_hash key;             /* the key of the file as it was, and of how it is read */
 } cs_svg_file;
 
 struct celspan_svg {
@@ -80,7 +80,7 @@ struct celspan_svg {
   double width, height;
   double seconds;         /* how long it moves; 0: it does not */
   cs_svg_file *file;      /* in the arena; NULL: at all times it is the same, or has changes */
-  celspan_space space;    /* of the object and of the parts */
+  celspan_space space;    /* the space of the object and of the parts */
   celspan_object *object; /* never NULL */
   cs_svg_part *parts;
   size_t part_count;

@@ -11,7 +11,7 @@
 
 typedef struct cs_svg_cascade {
   const char *values[CS_SVG_NAME_COUNT]; /* NULL: no value is given */
-  const cs_svg_variable *variables;      /* of the element */
+  const cs_svg_variable *variables;      /* the variables of the element */
 } cs_svg_cascade;
 
 /* inherited: the variables of the element's parent. tests: how many tests of selectors are left;

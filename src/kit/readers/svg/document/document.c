@@ -23,7 +23,7 @@ typedef struct reader {
   uint32_t foreign_depth;
   char *css; /* the texts of the style elements so far */
   size_t css_size, css_capacity;
-  char *characters; /* of the open text, since its last element */
+  char *characters; /* the characters of the open text, since its last element */
   size_t character_size, character_capacity;
   uint64_t character_line; /* the line where they begin */
   celspan_status failure;

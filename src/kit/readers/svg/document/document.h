@@ -24,12 +24,12 @@ typedef struct cs_svg_attribute {
 typedef struct cs_svg_node {
   cs_svg_element element;
   const char *tag;       /* its name, without a namespace */
-  const char *text;      /* of CHARACTERS: UTF-8, as in the file; otherwise NULL */
+  const char *text;      /* the text of CHARACTERS: UTF-8, as in the file; otherwise NULL */
   uint32_t line, number; /* number: counts elements, from 1 in the order of the file */
   struct cs_svg_node *parent, *first, *last, *next; /* NULL: none; first, last: children */
   const cs_svg_attribute *attributes;
   size_t attribute_count;
-  cs_css_declarations style;    /* of its attribute `style` */
+  cs_css_declarations style;    /* the style of its attribute `style` */
   cs_css_declarations moved;    /* what animations give to its properties; all zero: nothing */
   const celspan_matrix *motion; /* of animateMotion, after its own transform; NULL: none */
   struct cs_svg_own_box *box;   /* of its contents at its own place; NULL: not yet asked for */

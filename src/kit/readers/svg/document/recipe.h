@@ -71,8 +71,8 @@ typedef struct cs_svg_recipe {
   atomic_size_t references;
   struct cs_svg_recipe *next; /* owned; NULL: it is the last one */
   cs_memory *memory;
-  celspan_space space;         /* of the drawing: for the element itself, and for images */
-  celspan_box region;          /* the region outside of which the element is cut off */
+  celspan_space space; /* the space of the drawing: for the element itself, and for images */
+  celspan_box region;  /* of which the element is cut off */
   celspan_matrix matrix, back; /* from user units to the drawing's, and back */
   cs_svg_step *steps;          /* none: nothing is drawn */
   size_t step_count, step_capacity;

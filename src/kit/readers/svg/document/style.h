@@ -76,7 +76,7 @@ typedef struct cs_svg_style {
   bool keeps_width;                        /* of the stroke: transforms do not change its width */
   bool shows_overflow;                     /* of svg, symbol and marker elements */
   bool uses_alpha;                         /* of a mask: alpha instead of luminance */
-  cs_svg_colour light_colour;              /* of filters */
+  cs_svg_colour light_colour;              /* the light colour of filters */
   cs_svg_colour stop_colour, flood_colour; /* with stop-opacity or flood-opacity applied */
   /* Functions, and the properties that are applied after them; NULL: none. */
   const char *transform, *translate, *rotate, *scale;

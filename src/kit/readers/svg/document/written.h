@@ -52,7 +52,7 @@ typedef struct cs_svg_character {
 } cs_svg_character;
 
 typedef struct cs_svg_text_node {
-  const cs_svg_node *node; /* of kind CHARACTERS */
+  const cs_svg_node *node; /* the node of kind CHARACTERS */
   cs_svg_place place;
   size_t begin, end; /* characters */
 } cs_svg_text_node;

@@ -38,7 +38,7 @@ typedef struct gradient {
   const cs_svg_painted *shape;
   bool is_radial;
   bool is_in_box;         /* units are shares of the shape's box */
-  cs_svg_measure measure; /* of its lengths */
+  cs_svg_measure measure; /* the measure of its lengths */
   spread_kind spread;
   gradient_stops stops;
   celspan_matrix matrix;

@@ -19,7 +19,7 @@ typedef struct decoding {
   cs_svg_reading *reading;
   const cs_svg_node *node;
   int32_t width, height;
-  int bits; /* of a code: 8 or 16 */
+  int bits; /* the bits of a code: 8 or 16 */
   celspan_alpha alpha;
   unsigned char *pixels; /* owned */
 } decoding;

@@ -14,7 +14,7 @@ typedef struct cs_svg_mark {
   const cs_svg_node *marker;
   celspan_matrix viewport; /* the marker's viewport, 0 0 width height, to the shape's user units */
   celspan_matrix content;  /* units of the marker's contents, to the viewport */
-  double width, height;    /* of the viewport */
+  double width, height;    /* the width and height of the viewport */
   cs_svg_measure measure;  /* for lengths of the marker's contents */
 } cs_svg_mark;
 

@@ -32,7 +32,7 @@ typedef struct cs_svg_server {
 typedef struct cs_svg_painted {
   const cs_svg_node *node;
   const cs_svg_measure *measure;
-  celspan_box box;     /* of the shape's outline, in the user units of the shape */
+  celspan_box box;     /* the box of the shape's outline, in the user units of the shape */
   celspan_box painted; /* the box around everything that is painted, in the same units */
   double opacity;
   const celspan_matrix *matrix; /* from the same units to the drawing's */

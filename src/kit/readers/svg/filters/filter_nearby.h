@@ -13,7 +13,7 @@
 /* The units of a filter's numbers. */
 typedef struct cs_svg_filter_units {
   bool is_in_shares;      /* of the element's box, else user units */
-  const celspan_box *box; /* of the element */
+  const celspan_box *box; /* the box of the element */
 } cs_svg_filter_units;
 
 /* Both fill in the step of an element of these kinds, whose box and space are known. *reason: as in

@@ -27,7 +27,7 @@ typedef struct noise {
   int lattice[2 * TABLE + 2];
   double gradient[4][2 * TABLE + 2][2];
   double frequency[2]; /* adjusted where it is stitched */
-  stitch seam;         /* of its first octave */
+  stitch seam;         /* the seam of its first octave */
   double step[2];      /* user units a texel */
 } noise;
 

@@ -5,7 +5,7 @@
 
 /* The noise of an element. */
 typedef struct cs_svg_turbulence {
-  celspan_box box;       /* of the step, in user units */
+  celspan_box box;       /* the box of the step, in user units */
   celspan_matrix matrix; /* from user units to the drawing's */
   double frequency[2];   /* waves a user unit, 0 or more */
   int octaves;           /* 0 or more */

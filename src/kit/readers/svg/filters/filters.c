@@ -28,7 +28,7 @@ typedef struct filter {
   const cs_svg_node *element; /* the element that is filtered */
   const cs_svg_place *place;  /* of that */
   const cs_svg_node *owner;   /* the filter; NULL: a function */
-  celspan_box box;            /* of the element, in its user units */
+  celspan_box box;            /* the box of the element, in its user units */
   bool is_in_shares;          /* numbers are shares of that box */
   cs_svg_recipe *recipe;
   named_result *names;

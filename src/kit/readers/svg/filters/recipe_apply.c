@@ -17,7 +17,7 @@ typedef struct applying {
   celspan_context *context;
   const cs_svg_recipe *recipe;
   const cs_svg_step *step;
-  celspan_object **results; /* of the sources and the steps so far */
+  celspan_object **results; /* the results of the sources and the steps so far */
 } applying;
 
 static celspan_object *input(const applying *a, size_t index) {

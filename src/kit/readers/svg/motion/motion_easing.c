@@ -51,7 +51,7 @@ typedef struct stops {
 /* A stop as written: a number, and up to two percentages, before or behind it. */
 typedef struct stop {
   double y, places[2];
-  int count; /* of places */
+  int count; /* the count of places */
 } stop;
 
 static bool take_stop(const char **text, stop *out) {

@@ -13,7 +13,7 @@ typedef struct cs_svg_animation {
 
 /* The place of an animation at a time. */
 typedef struct cs_svg_progress {
-  double share; /* of the simple duration, 0..1 */
+  double share; /* the share of the simple duration, 0..1 */
   double round; /* how many were completed */
 } cs_svg_progress;
 

@@ -23,7 +23,7 @@ typedef struct event {
 typedef struct link {
   uint32_t animation;         /* the one that waits */
   uint32_t next, next_source; /* of the same other one; of the same that waits */
-  kind kind;                  /* of the moment of the one that waits */
+  kind kind;                  /* the kind of the moment of the one that waits */
   bool after_end;
   double offset, time; /* time: by the interval now; INFINITY: there is none */
 } link;
@@ -38,7 +38,7 @@ typedef struct state {
   uint32_t followers, sources; /* the first links: of those that wait for it, and of itself */
   uint32_t kept[2];            /* by kind */
   bool is_active, is_queued, had_end, was_empty;
-  double begin, end; /* of the interval that runs or comes next; INFINITY: none */
+  double begin, end; /* the begin and end of the interval that runs or comes next; INFINITY: none */
   double after;      /* the end of the interval before; -INFINITY: none */
   double period;     /* between its last two beginnings; 0: it began once */
   uint32_t serial;
@@ -57,7 +57,7 @@ typedef struct running {
   size_t link_count, link_capacity;
   kept *kept;
   size_t kept_count, kept_capacity;
-  uint32_t unused; /* the first of `kept` that can be used again */
+  uint32_t unused; /* of `kept` that can be used again */
   event *heap;     /* a heap: the earliest first */
   size_t waiting, capacity;
   uint32_t wave;             /* the number of events so far */

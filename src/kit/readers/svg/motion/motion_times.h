@@ -46,7 +46,7 @@ typedef struct cs_svg_interval {
 
 /* How long a drawing moves. */
 typedef struct cs_svg_extent {
-  double end;    /* of the last interval that ends; 0: none does */
+  double end;    /* the end of the last interval that ends; 0: none does */
   double period; /* the longest of what repeats for ever; 0: none */
 } cs_svg_extent;
 

@@ -189,7 +189,7 @@ static bool read_colour(reader *r, const char *text) {
 /* Functions that are the same with other arguments: the pair of which they are a half. */
 static const struct {
   const char *name, *whole;
-  int place; /* of the argument; the other is `rest` */
+  int place; /* the place of the argument; the other is `rest` */
   double rest;
 } halves[] = {{"translateX", "translate", 0, 0}, {"translateY", "translate", 1, 0},
               {"scaleX", "scale", 0, 1},         {"scaleY", "scale", 1, 1},

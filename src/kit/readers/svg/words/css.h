@@ -20,7 +20,7 @@ typedef struct cs_css_place {
   cs_arena *arena;
   /* properties that are not read, and values that are ignored because of this */
   cs_svg_unread *unread;
-  uint32_t line; /* of the text */
+  uint32_t line; /* the line of the text */
 } cs_css_place;
 
 /* A copy of [begin, end) without space at its ends. NULL if there is no memory. */

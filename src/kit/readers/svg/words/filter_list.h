@@ -26,7 +26,7 @@ typedef enum cs_svg_filter_kind {
 typedef struct cs_svg_filter_call {
   cs_svg_filter_kind kind;
   cs_svg_reference reference; /* REFERENCE */
-  double amount;              /* of colours: 0 or more, or degrees */
+  double amount;              /* the amount of colours: 0 or more, or degrees */
   cs_svg_length lengths[3];   /* BLUR: the first; SHADOW: along x, along y, the deviation */
   bool is_bare;               /* a length other than 0 was written without a unit */
   bool has_colour;            /* SHADOW; false: the colour of the property `color` */

@@ -27,10 +27,10 @@ typedef struct cs_svg_length {
 
 /* The sizes to which lengths are relative. */
 typedef struct cs_svg_measure {
-  double width, height; /* of the nearest viewport, in user units */
+  double width, height; /* the width and height of the nearest viewport, in user units */
   double font_size;
   double root_font_size;
-  double page_width, page_height; /* of the whole drawing, in px */
+  double page_width, page_height; /* the page width and page height of the whole drawing, in px */
 } cs_svg_measure;
 
 typedef enum cs_svg_axis { CS_SVG_AXIS_X, CS_SVG_AXIS_Y, CS_SVG_AXIS_BOTH } cs_svg_axis;

@@ -7,7 +7,7 @@
 typedef struct cs_svg_way {
   cs_outline outline;
   double *lengths; /* for each piece: the length of all pieces before it */
-  double length;   /* of all */
+  double length;   /* the length of all */
 } cs_svg_way;
 
 /* Measures way->outline. *way must be finished, also after a failure. Errors: NO_MEMORY. */
