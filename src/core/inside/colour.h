@@ -12,6 +12,8 @@
  */
 #pragma once
 
+#include "model/colour/transfer_names.h"
+#ifndef __cplusplus /* modules in C++ see names alone */
 #include "model/colour/blend.h"
 #include "model/colour/grade.h"
 #include "model/colour/primaries.h"
@@ -19,4 +21,4 @@
 #include "model/colour/srgb8.h"
 #include "model/colour/srgb8_lanes.h"
 #include "model/colour/transfer.h"
-#include "model/colour/transfer_names.h"
+#endif

@@ -10,9 +10,9 @@
  */
 #pragma once
 
+#include "model/pictures/configuration.h"
 #include "model/pictures/module.h"
 #ifndef __cplusplus /* modules in C++ see their table alone */
-#include "model/pictures/configuration.h"
 #include "model/pictures/load.h"
 #include "model/pictures/picture.h"
 #include "model/pictures/store.h"
