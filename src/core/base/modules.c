@@ -4,7 +4,7 @@
 /* with: whether this celspan was built with the module; if not, it lacks `libraries`, and the
  * option that adds them is `option`. package: what to install if only the module is missing. */
 #define MODULE(name, capitals, place, with, libraries, option, package)                            \
-  .file = "celspan-" name ".so", .folder = "plugins/" place,                                       \
+  .file = "celspan-" name ".so", .folder = "kit/plugins/" place,                                   \
   .override = "CELSPAN_" capitals "_MODULE", .symbol = "celspan_" name "_module",                  \
   .advice = (with) ? "install " package                                                            \
                    : "this celspan was built without " libraries "; build it with -D" option       \
@@ -12,7 +12,7 @@
 
 static const cs_module_desc raster = {
     .file = "celspan-raster.so",
-    .folder = "plugins/raster",
+    .folder = "kit/plugins/raster",
     .override = "CELSPAN_PICTURE_MODULE",
     .symbol = "celspan_picture_module",
     .purpose = "reading and writing pictures",
