@@ -82,8 +82,9 @@ static void add_outlet(const render_job *job, cs_shoot *shoot) {
 
 /* ---------------------------------------------------------------- files */
 
-static celspan_status write(void *user, celspan_context *context, const celspan_frame_desc *desc,
-                            const char *path, const celspan_file_desc *file) {
+static celspan_status write_frame(void *user, celspan_context *context,
+                                  const celspan_frame_desc *desc, const char *path,
+                                  const celspan_file_desc *file) {
   const render_job *job = user;
   const cs_page page = {.frame = desc, .path = path, .file = file};
   return job->row->write(context, job->request, job->row, &page);
@@ -257,7 +258,7 @@ static celspan_status run_shoot(render_job *job) {
                     .keeps_going = job->keeps_going,
                     .keeps_nothing = keeps_nothing(job),
                     .user = job,
-                    .write = job->row->write ? write : NULL,
+                    .write = job->row->write ? write_frame : NULL,
                     .hash = job->row->is_apart ? cs_apart_hash : NULL,
                     .keep = job->resumes ? keep : NULL,
                     .build = build,
