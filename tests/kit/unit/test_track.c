@@ -195,8 +195,7 @@ static void levels_lie_over_each_other(celspan_context *context) {
   cs_grey_levels made;
   for (int i = 0; i < SIDE * SIDE; i++)
     values[i] = (float)(i % SIDE + 3 * (i / SIDE));
-  if (!CHECK(cs_grey_levels_make(context, values, SIDE, SIDE, CS_GREY_LEVELS, &made) ==
-             CELSPAN_OK))
+  if (!CHECK(cs_grey_levels_make(context, values, SIDE, SIDE, CS_GREY_LEVELS, &made) == CELSPAN_OK))
     return;
   CHECK(made.count == COUNT_OF_LEVELS); /* the last is of 16 pixels */
   for (int level = 0; level < made.count; level++) {
