@@ -57,7 +57,6 @@ return {
     "spec/video" },
   raster = { "spec/raster" },
   archive = { "spec/layered", "spec/lottie_out" },
-  photoshop = { "spec/layered" },
   exr = { "spec/raster", "spec/apart" },
   apart = { "spec/apart", "spec/cryptomatte", "spec/layered", "spec/crossed" },
   ["program.c"] = { "spec/install", "spec/container" },

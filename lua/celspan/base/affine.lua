@@ -44,6 +44,17 @@ function affine.apply(map, x, y)
   return map[1] * x + map[2] * y + map[3], map[4] * x + map[5] * y + map[6]
 end
 
+--- A contour of celspan.path, moved.
+function affine.move(map, contour)
+  local a, b, c, d, e, f = table.unpack(map)
+  local moved = { closed = contour.closed }
+  for i = 1, #contour, 2 do
+    local x, y = contour[i], contour[i + 1]
+    moved[i], moved[i + 1] = a * x + b * y + c, d * x + e * y + f
+  end
+  return moved
+end
+
 --- The nine numbers that object:transform takes.
 function affine.matrix(map)
   return { map[1], map[2], map[3], map[4], map[5], map[6], 0, 0, 1 }

@@ -225,10 +225,7 @@ function csv.decode(text, options)
   end
   local fault = fault_of_coding(text)
   if fault then return nil, fault end
-  local good, rows = pcall(decode, text, options)
-  if not good and type(rows) ~= "table" then error(rows, 0) end
-  if not good then return nil, rows.message end
-  return rows
+  return fields.caught(decode, text, options)
 end
 
 --- Reads a table from a file.

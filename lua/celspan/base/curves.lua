@@ -20,6 +20,15 @@ function curves.through(points)
   return contour
 end
 
+--- A contour in the other direction; a closed one from the same point.
+function curves.reversed(contour)
+  local back = { closed = contour.closed }
+  for i = #contour - 1, 1, -2 do
+    back[#back + 1], back[#back + 2] = contour[i], contour[i + 1]
+  end
+  return back
+end
+
 --- The curve of path data or of contours; nil and a message if path data are damaged. noun: for
 --- messages.
 function curves.of(noun, line)

@@ -54,11 +54,11 @@ end
 --- What a message writes for a key: a string as it is, the kind of others.
 function fields.key(value) return type(value) == "string" and value or fields.shown(value) end
 
---- The fault of the option `space`; nil: it is correct or missing.
+--- Raises an error unless the option `space` is right or missing.
 function fields.space(noun, space)
   if space ~= nil and space ~= "linear" and space ~= "srgb" then
-    return ("%s: space must be \"linear\" or \"srgb\", got %s"):format(noun,
-      type(space) == "string" and ("%q"):format(space) or fields.shown(space))
+    core.refuse(("%s: space must be \"linear\" or \"srgb\", got %s"):format(noun,
+      type(space) == "string" and ("%q"):format(space) or fields.shown(space)))
   end
 end
 
@@ -80,6 +80,44 @@ end
 local function refuse_name(noun, name, names)
   table.sort(names)
   core.refuse(("%s has no '%s'%s"):format(noun, name, fields.choice(name, names)))
+end
+
+--- Raises an error unless `holds`: `value` must be as `rule` says. what: "echo: field 'fade'".
+function fields.must(holds, what, rule, value)
+  if holds then return end
+  core.refuse(("%s must be %s, got %s"):format(what, rule, fields.shown(value)))
+end
+
+--- Raises an error unless `value` is a whole number from `least` to `most`, or with nil of at least
+--- `least`. Returns it as an integer.
+function fields.whole(what, value, least, most)
+  local number = fields.is_finite(value) and math.tointeger(value)
+  fields.must(number and number >= least and number <= (most or number), what,
+    "a whole number " .. (most and ("from %d to %d"):format(least, most)
+      or ("of at least %d"):format(least)), value)
+  return number
+end
+
+--- Raises an error unless what a function takes has the wanted type(). what: a description of it.
+function fields.takes(name, wanted, what, value)
+  if type(value) == wanted then return end
+  core.refuse(("%s takes %s, got %s"):format(name, what, fields.kind(value)))
+end
+
+--- The result of a function; nil and the message, if it raises a table with one.
+function fields.caught(work, ...)
+  local good, value = pcall(work, ...)
+  if good then return value end
+  if type(value) ~= "table" then error(value, 0) end
+  return nil, value.message
+end
+
+--- Raises an error unless the first argument of a function is an object.
+function fields.object(noun, object)
+  if not fields.is_object(object) then
+    core.refuse(("%s: the first argument must be an object, got %s"):format(noun,
+      fields.kind(object)))
+  end
 end
 
 --- Raises an error unless `self` is a value of this class (its metatable). Like all errors of the
@@ -115,6 +153,13 @@ function fields.reads(noun, methods, optional)
     end
     refuse_name(noun, name, names)
   end
+end
+
+--- A class of this name, whose methods are its own fields. noun: a value of it, as in "a track".
+function fields.class(name, noun, optional)
+  local class = { __name = name }
+  class.__index = fields.reads(noun, class, optional)
+  return class
 end
 
 --- Makes it an error to read an unknown name of a module; returns the module.

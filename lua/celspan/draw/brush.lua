@@ -40,9 +40,7 @@ local known = { d = "any", width = "number", profile = "any", nib = "number", te
                 from = "number", to = "number", within = "number", pieces = "number" }
 
 local function check_share(name, value)
-  if not (value >= 0 and value <= 1) then
-    refuse("field '%s' must be from 0 to 1, got %s", name, fields.shown(value))
-  end
+  fields.must(value >= 0 and value <= 1, ("brush: field '%s'"):format(name), "from 0 to 1", value)
 end
 
 --- The profile as a function of the share.
@@ -107,9 +105,7 @@ function brush.line(options)
   fields.check("brush", options, known)
   local width, from, to = options.width or 1, options.from or 0, options.to or 1
   if options.d == nil then refuse "needs the field 'd', the path of the line" end
-  if not (width > 0 and width < math.huge) then
-    refuse("field 'width' must be above 0, got %s", fields.shown(width))
-  end
+  fields.must(width > 0 and width < math.huge, "brush: field 'width'", "above 0", width)
   check_share("from", from)
   check_share("to", to)
   local curve = curves.read("brush", options.d, "d")

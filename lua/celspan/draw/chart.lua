@@ -46,12 +46,9 @@ local function check(given)
     refuse("the box must have a width and a height above 0, got %s by %s",
       fields.shown(given.box[3]), fields.shown(given.box[4]))
   end
-  if given.size and given.size <= 0 then
-    refuse("field 'size' must be more than 0, got %s", fields.shown(given.size))
-  end
-  if given.hole and (given.hole < 0 or given.hole >= 1) then
-    refuse("field 'hole' must be 0 or more and less than 1, got %s", fields.shown(given.hole))
-  end
+  local size, hole = given.size or 1, given.hole or 0
+  fields.must(size > 0, "chart: field 'size'", "more than 0", size)
+  fields.must(hole >= 0 and hole < 1, "chart: field 'hole'", "0 or more and less than 1", hole)
   if given.colours and rawlen(given.colours) == 0 then
     refuse("field 'colours' must have at least one colour")
   end

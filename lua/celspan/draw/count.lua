@@ -63,15 +63,10 @@ function count.written(value, options)
   options = options or {}
   fields.check("count", options, { language = "string", decimals = "number", group = "boolean" })
   local decimals = options.decimals or 0
-  if not fields.is_finite(value) then
-    refuse("the first argument must be a finite number, got %s", fields.shown(value))
-  end
-  if decimals < 0 or decimals > MOST_DECIMALS or decimals ~= math.floor(decimals) then
-    refuse("decimals must be a whole number from 0 to %d, got %s", MOST_DECIMALS,
-      fields.shown(decimals))
-  end
+  fields.must(fields.is_finite(value), "count: the first argument", "a finite number", value)
+  decimals = fields.whole("count: decimals", decimals, 0, MOST_DECIMALS)
   local style = style_of(options.language or "en")
-  local text = ("%%.%df"):format(decimals // 1):format(math.abs(value))
+  local text = ("%%.%df"):format(decimals):format(math.abs(value))
   local whole, rest = text:match "^(%d+)%.?(%d*)$"
   local sign = value < 0 and text:find "[1-9]" and "\u{2212}" or ""
   if options.group ~= false then whole = grouped(whole, style) end

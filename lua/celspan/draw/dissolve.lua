@@ -4,7 +4,6 @@
 -- has a number from 0 to 1, a hash of its place and of the seed: white noise. An object is opaque
 -- in the squares whose number is more than 1 less its alpha, and clear in the others.
 local celspan = require "celspan"
-local core = require "celspan.core"
 local fields = require "celspan.fields"
 
 local dissolve = {}
@@ -12,19 +11,14 @@ local dissolve = {}
 local MARGIN = 1   -- units around the bounds, for shapes that are drawn by their pixels
 local LEAST = 2e-7 -- the number of no square is 0, so an opaque object has no holes
 
-local function refuse(text, ...) core.refuse("dissolve: " .. text:format(...)) end
-
 --- An object of which the alpha decides by chance whether a pixel is opaque or clear.
 ---@param object celspan.shape
 ---@param seed? integer Another one chooses other pixels (0)
 ---@return celspan.object
 function dissolve.by_chance(object, seed)
-  if not fields.is_object(object) then
-    refuse("the first argument must be an object, got %s", fields.kind(object))
-  end
-  if seed ~= nil and math.type(seed) ~= "integer" then
-    refuse("the seed must be a whole number, got %s", fields.shown(seed))
-  end
+  fields.object("dissolve", object)
+  fields.must(seed == nil or math.type(seed) == "integer", "dissolve: the seed", "a whole number",
+    seed)
   local x, y, w, h = object:bounds()
   if not x then return object end
   local numbers = celspan.noise { kind = "white", size = 1, seed = seed, fade = false,

@@ -25,13 +25,8 @@ function echo.trail(draw, options)
   end
   fields.check("echo", options, { count = "number", fade = "number" })
   local count, fade, objects = options.count or 5, options.fade or 0.7, {}
-  if count < 1 or count > MOST or count ~= math.floor(count) then
-    refuse("field 'count' must be a whole number from 1 to %d, got %s", MOST, fields.shown(count))
-  end
-  if fade < 0 or fade > 1 then
-    refuse("field 'fade' must be from 0 to 1, got %s", fields.shown(fade))
-  end
-  for k = count // 1 - 1, 0, -1 do
+  fields.must(fade >= 0 and fade <= 1, "echo: field 'fade'", "from 0 to 1", fade)
+  for k = fields.whole("echo: field 'count'", count, 1, MOST) - 1, 0, -1 do
     local object = draw(k)
     if object and not fields.is_object(object) then
       refuse("the function must return an object or nil, got %s for %d", fields.kind(object), k)

@@ -113,11 +113,8 @@ end
 ---@return celspan.object
 function layout.grid(list)
   fields.check("grid", list, { "list", columns = "number", gap = "number" })
-  local columns, gap = list.columns, check_gap("grid", list.gap)
-  if not columns or columns < 1 or columns ~= math.floor(columns) then
-    refuse("grid: field 'columns' must be a whole number of at least 1, got %s",
-      fields.shown(columns))
-  end
+  local gap = check_gap("grid", list.gap)
+  local columns = fields.whole("grid: field 'columns'", list.columns, 1)
   local items, widths, heights = read_items("grid", list), {}, {}
   for i, item in ipairs(items) do
     local column, row = (i - 1) % columns + 1, (i - 1) // columns + 1

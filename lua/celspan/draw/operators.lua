@@ -5,18 +5,8 @@ local fields = require "celspan.fields"
 
 local operators = {}
 
-local function check_object(noun, object)
-  if not fields.is_object(object) then
-    core.refuse(("%s: the first argument must be an object, got %s"):format(noun,
-      fields.kind(object)))
-  end
-end
-
-local function check_number(noun, name, number)
-  if not fields.is_finite(number) then
-    core.refuse(("%s: %s must be a finite number, got %s"):format(noun, name,
-      fields.shown(number)))
-  end
+local function check_number(what, number)
+  fields.must(fields.is_finite(number), what, "a finite number", number)
 end
 
 local trims = { offset = "number", together = "boolean" }
@@ -28,9 +18,9 @@ local trims = { offset = "number", together = "boolean" }
 ---@param options? { offset?: number, together?: boolean }
 ---@return celspan.object
 function operators.trim(object, from, to, options)
-  check_object("trim", object)
-  check_number("trim", "the second argument, from,", from)
-  check_number("trim", "the third argument, to,", to)
+  fields.object("trim", object)
+  check_number("trim: the second argument, from,", from)
+  check_number("trim: the third argument, to,", to)
   if options == nil then return core.trim(object, from, to, 0, false) end
   fields.check("trim", options, trims)
   return core.trim(object, from, to, options.offset or 0, options.together or false)
@@ -41,8 +31,8 @@ end
 ---@param radius number
 ---@return celspan.object
 function operators.round_corners(object, radius)
-  check_object("round_corners", object)
-  check_number("round_corners", "the radius", radius)
+  fields.object("round_corners", object)
+  check_number("round_corners: the radius", radius)
   return core.round_corners(object, radius)
 end
 
@@ -54,18 +44,14 @@ local RIDGES_MOST = 10000
 ---@param options { size: number, ridges: integer, smooth?: boolean }
 ---@return celspan.object
 function operators.zigzag(object, options)
-  check_object("zigzag", object)
+  fields.object("zigzag", object)
   fields.check("zigzag", options, zigzags)
   for _, name in ipairs { "size", "ridges" } do
     if options[name] == nil then
       core.refuse(("zigzag: needs the field '%s', a number"):format(name))
     end
   end
-  local ridges = math.tointeger(options.ridges)
-  if not ridges or ridges < 0 or ridges > RIDGES_MOST then
-    core.refuse(("zigzag: field 'ridges' must be a whole number from 0 to %d, got %s"):format(
-      RIDGES_MOST, fields.shown(options.ridges)))
-  end
+  local ridges = fields.whole("zigzag: field 'ridges'", options.ridges, 0, RIDGES_MOST)
   return core.zigzag(object, options.size, ridges, options.smooth or false)
 end
 
@@ -74,12 +60,10 @@ end
 ---@param amount number
 ---@return celspan.object
 function operators.pucker(object, amount)
-  check_object("pucker", object)
-  check_number("pucker", "the amount", amount)
+  fields.object("pucker", object)
+  check_number("pucker: the amount", amount)
   return core.pucker(object, amount)
 end
-
-local DEGREES_MOST = 360000 -- a thousand turns
 
 --- Points turn about a centre, the less the farther they are from it.
 ---@param object celspan.shape
@@ -87,12 +71,10 @@ local DEGREES_MOST = 360000 -- a thousand turns
 ---@param options? { centre?: celspan.point }
 ---@return celspan.object
 function operators.twist(object, degrees, options)
-  check_object("twist", object)
-  check_number("twist", "the angle", degrees)
-  if math.abs(degrees) > DEGREES_MOST then
-    core.refuse(("twist: the angle must be from -%d to %d degrees, got %s"):format(DEGREES_MOST,
-      DEGREES_MOST, fields.shown(degrees)))
-  end
+  fields.object("twist", object)
+  check_number("twist: the angle", degrees)
+  fields.must(math.abs(degrees) <= 360000, "twist: the angle", "from -360000 to 360000 degrees",
+    degrees) -- a thousand turns
   fields.check("twist", options or {}, { centre = "table" })
   local centre = options and options.centre
   if not centre then return core.twist(object, degrees) end
@@ -109,20 +91,16 @@ local LIMIT = 4 -- of miters, as of strokes
 ---@param options? { join?: "round"|"miter"|"bevel", limit?: number }
 ---@return celspan.object
 function operators.offset(object, distance, options)
-  check_object("offset", object)
-  if not fields.is_finite(distance) or math.abs(distance) > 1e12 then
-    core.refuse("offset: the distance must be a number from -1e12 to 1e12, got "
-      .. fields.shown(distance))
-  end
+  fields.object("offset", object)
+  fields.must(fields.is_finite(distance) and math.abs(distance) <= 1e12, "offset: the distance",
+    "a number from -1e12 to 1e12", distance)
   fields.check("offset", options or {}, { join = "string", limit = "number" })
   local join, limit = options and options.join or "round", options and options.limit or LIMIT
   if not joins[join] then
     core.refuse(("offset: field 'join' must be \"round\", \"miter\" or \"bevel\", got %q"):format(
       join))
   end
-  if limit < 1 or limit > 1e6 then
-    core.refuse("offset: field 'limit' must be from 1 to 1000000, got " .. fields.shown(limit))
-  end
+  fields.must(limit >= 1 and limit <= 1e6, "offset: field 'limit'", "from 1 to 1000000", limit)
   return core.offset(object, distance, join, limit)
 end
 

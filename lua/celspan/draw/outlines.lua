@@ -10,6 +10,8 @@
 --       |     o---'            Between the nodes of the way length goes with length. All joints of
 --       |   .'                 either are joints of both in the end, and their control points move
 --       o--'______ nodes of a  on straight lines.
+local curves = require "celspan.curves"
+
 local outlines = {}
 
 local NODES = 32
@@ -116,15 +118,6 @@ end
 function outlines.distance(contour, x, y)
   local _, far = nearest(measure(contour), x, y)
   return far
-end
-
-local function reversed(contour)
-  local back = { closed = contour.closed }
-  for i = #contour - 1, 1, -2 do
-    back[#back + 1] = contour[i]
-    back[#back + 1] = contour[i + 1]
-  end
-  return back
 end
 
 -- ---------------------------------------------------------------- nodes
@@ -531,7 +524,7 @@ local function turn_lines(ones, others)
       local n, m = #a, #b
       local same = distance(a[1], a[2], b[1], b[2]) + distance(a[n - 1], a[n], b[m - 1], b[m])
       local other = distance(a[1], a[2], b[m - 1], b[m]) + distance(a[n - 1], a[n], b[1], b[2])
-      if other < same then others[i] = measure(reversed(b)) end
+      if other < same then others[i] = measure(curves.reversed(b)) end
     end
   end
 end
@@ -543,7 +536,9 @@ function outlines.match(a, b, steering, refuse)
   local others, second = measure_all(b)
   if first and second and (first.area > 0) ~= (second.area > 0) then
     local all = {}
-    for i, way in ipairs(others) do all[i] = way.open and way.contour or reversed(way.contour) end
+    for i, way in ipairs(others) do
+      all[i] = way.open and way.contour or curves.reversed(way.contour)
+    end
     others, second = measure_all(all)
   end
   turn_lines(ones, others)

@@ -19,15 +19,6 @@ local known = { count = "number", offset = "number", translate = "table", rotate
 
 local function refuse(text, ...) core.refuse("repeater: " .. text:format(...)) end
 
-local function check_count(count)
-  local whole = count and math.tointeger(count)
-  if not whole or whole < 0 or whole > COUNT_MOST then
-    refuse("field 'count' must be a whole number from 0 to %d, got %s", COUNT_MOST,
-      fields.shown(count))
-  end
-  return whole
-end
-
 --- A list of two numbers, or its default.
 local function read_pair(options, name, first, second)
   local pair = options[name]
@@ -56,9 +47,7 @@ end
 local function check_opacity(options)
   local from, to = read_pair(options, "opacity", 1, 1)
   for _, value in ipairs { from, to } do
-    if value < 0 or value > 1 then
-      refuse("opacity must be from 0 to 1, got %s", fields.shown(value))
-    end
+    fields.must(value >= 0 and value <= 1, "repeater: opacity", "from 0 to 1", value)
   end
   return from, to
 end
@@ -108,11 +97,10 @@ end
 ---@param options { count: integer, offset?: number, translate?: celspan.point, rotate?: number, scale?: number|number[], centre?: celspan.point, opacity?: number[], order?: "above"|"below", each?: fun(copy: celspan.object, i: integer): celspan.object? }
 ---@return celspan.object
 function repeater.copies(object, options)
-  if not fields.is_object(object) then
-    refuse("the first argument must be an object, got %s", fields.kind(object))
-  end
+  fields.object("repeater", object)
   fields.check("repeater", options, known)
-  local count, offset = check_count(options.count), options.offset or 0
+  local count = fields.whole("repeater: field 'count'", options.count, 0, COUNT_MOST)
+  local offset = options.offset or 0
   local matrix_at, copies = mover(options, offset), {}
   local from, to = check_opacity(options)
   check_order(options.order)

@@ -11,43 +11,29 @@ local fields = require "celspan.fields"
 local star = {}
 
 local POINTS_MOST = 10000
-local ROUND_MOST = 100
-
-local function refuse(text, ...) core.refuse("star: " .. text:format(...)) end
 
 local known = { centre = "table", points = "number", outer = "number", inner = "number",
                 rotate = "number", outer_round = "number", inner_round = "number",
                 texture = "any" }
 
-local function check_points(points)
-  local whole = points == nil and 5 or math.tointeger(points)
-  if not whole or whole < 2 or whole > POINTS_MOST then
-    refuse("field 'points' must be a whole number from 2 to %d, got %s", POINTS_MOST,
-      fields.shown(points))
-  end
-  return whole
-end
-
 local function check_radius(name, radius)
-  if radius and (radius < 0 or radius > 1e12) then
-    refuse("field '%s' must be from 0 to 1e12, got %s", name, fields.shown(radius))
-  end
+  fields.must(not radius or radius >= 0 and radius <= 1e12, ("star: field '%s'"):format(name),
+    "from 0 to 1e12", radius)
   return radius
 end
 
 local function check_round(name, round)
-  if round and math.abs(round) > ROUND_MOST then
-    refuse("field '%s' must be from -%d to %d, got %s", name, ROUND_MOST, ROUND_MOST,
-      fields.shown(round))
-  end
+  fields.must(not round or math.abs(round) <= 100, ("star: field '%s'"):format(name),
+    "from -100 to 100", round)
   return round or 0
 end
 
 local function read(options)
   fields.check("star", options, known)
   fields.numbers("star", "centre[%d]", options.centre or { 0, 0 }, 2, "{x, y}")
-  if options.outer == nil then refuse "needs the field 'outer', a radius" end
-  local points, inner = check_points(options.points), check_radius("inner", options.inner)
+  if options.outer == nil then core.refuse "star: needs the field 'outer', a radius" end
+  local points = fields.whole("star: field 'points'", options.points or 5, 2, POINTS_MOST)
+  local inner = check_radius("inner", options.inner)
   return { x = options.centre and options.centre[1] or 0,
            y = options.centre and options.centre[2] or 0,
            count = inner and 2 * points or points, points = points,

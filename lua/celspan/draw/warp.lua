@@ -47,10 +47,7 @@ local function read_lattice(lattice)
                                            smooth = "boolean", box = "table" })
   local columns, rows = lattice.columns or 1, lattice.rows or 1
   for name, count in pairs { columns = columns, rows = rows } do
-    if count ~= math.floor(count) or count < 1 or count > 1000 then
-      refuse("lattice: %s must be a whole number from 1 to 1000, got %s", name,
-        fields.shown(count))
-    end
+    fields.whole("warp: lattice: " .. name, count, 1, 1000)
   end
   local points = lattice.points
   if type(points) ~= "table" or rawlen(points) ~= (columns + 1) * (rows + 1) then
@@ -250,12 +247,16 @@ local function numbers_without_weight(bones)
   return some[1] and some or all
 end
 
-local function read_bones(list)
-  local bones = {}
+local function check_list(list, name, more)
   if type(list) ~= "table" or rawlen(list) == 0 then
-    refuse("bones must be a list of { from = {x, y}, to = {x, y}, rotate = degrees }, got %s",
+    refuse("%s must be a list of { from = {x, y}, to = {x, y}%s }, got %s", name, more,
       type(list) == "table" and "an empty one" or fields.kind(list))
   end
+end
+
+local function read_bones(list)
+  local bones = {}
+  check_list(list, "bones", ", rotate = degrees")
   for i = 1, rawlen(list) do bones[i] = read_bone(list, bones, i) end
   return bones
 end
@@ -282,10 +283,7 @@ end
 
 local function read_pins(pins)
   local read = {}
-  if type(pins) ~= "table" or rawlen(pins) == 0 then
-    refuse("pins must be a list of { from = {x, y}, to = {x, y} }, got %s",
-      type(pins) == "table" and "an empty one" or fields.kind(pins))
-  end
+  check_list(pins, "pins", "")
   for i = 1, rawlen(pins) do
     fields.check(("warp: pin %d"):format(i), pins[i], { from = "table", to = "table" })
     local x, y = read_point(("pin %d: from"):format(i), pins[i].from)
@@ -387,12 +385,8 @@ local function check_boil(options)
     end
   end
   local grain = options.grain or GRAIN * amount
-  if amount < 0 then
-    refuse_boil("field 'amount' must be 0 or more, got %s", fields.shown(amount))
-  end
-  if every ~= every or every < 1 then
-    refuse_boil("field 'every' must be 1 or more, got %s", fields.shown(every))
-  end
+  fields.must(amount >= 0, "boil: field 'amount'", "0 or more", amount)
+  fields.must(every >= 1, "boil: field 'every'", "1 or more", every)
   if not (grain >= LEAST * amount and grain < math.huge) then
     refuse_boil("field 'grain' must be at least %d times the amount, %.14g, or lines would fold, "
       .. "got %s", LEAST, LEAST * amount, fields.shown(grain))

@@ -62,10 +62,8 @@ end
 
 ---@class celspan.cut.transition
 ---@field seconds number
-local Transition = {}
-Transition.__index = fields.reads("a transition", Transition,
+local Transition = fields.class("celspan.cut.transition", "a transition",
   { parts = true, ease = true })
-Transition.__name = "celspan.cut.transition"
 
 --- A transition has `parts(a, b, u, size, step)`, which returns the exposures for two rostrums. One
 --- rostrum may be nil at an end of the film. step: the change of u from frame to frame.
@@ -205,9 +203,7 @@ end
 ---@param make fun(a: celspan.rostrum, b: celspan.rostrum, u: number): celspan.exposures
 ---@return fun(seconds: number, curve?: celspan.ease): celspan.cut.transition
 function cut.with(make)
-  if type(make) ~= "function" then
-    core.refuse("cut: with takes a function(a, b, u), got " .. fields.kind(make))
-  end
+  fields.takes("cut: with", "function", "a function(a, b, u)", make)
   return function(seconds, curve)
     return transition("with", seconds, curve, function(a, b, u, size)
       local nothing = celspan.rostrum { size = size }

@@ -65,17 +65,13 @@ local function check(scene)
     core.refuse("multiplane: field 'film' must be {width, height}, the size of the film, got nil")
   end
   fields.numbers("multiplane", "film[%d]", scene.film, 2, "{width, height}")
-  if scene.aperture and scene.aperture < 0 then
-    core.refuse("multiplane: field 'aperture' must be 0 or more, got "
-      .. fields.shown(scene.aperture))
-  end
+  fields.must((scene.aperture or 0) >= 0, "multiplane: field 'aperture'", "0 or more",
+    scene.aperture)
   if scene.focus and scene.focus_on then
     core.refuse("multiplane: 'focus' is a distance from the camera and 'focus_on' a depth: give "
       .. "one of them")
   end
-  if scene.focal and scene.focal <= 0 then
-    core.refuse("multiplane: field 'focal' must be above 0, got " .. fields.shown(scene.focal))
-  end
+  fields.must((scene.focal or 1) > 0, "multiplane: field 'focal'", "above 0", scene.focal)
   for i = 1, rawlen(scene) do
     local plane = scene[i]
     local cel = type(plane) == "table" and plane[1] or nil

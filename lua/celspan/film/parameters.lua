@@ -290,9 +290,7 @@ end
 --- celspan.parameters.
 function parameters.declare(given)
   local settings = core.settings()
-  if type(given) ~= "table" then
-    core.refuse("parameters: takes a table of names and defaults, got " .. fields.kind(given))
-  end
+  fields.takes("parameters:", "table", "a table of names and defaults", given)
   if settings.declared then core.refuse("parameters: a script declares its parameters once") end
   local good, declared = pcall(declare_all, given)
   if not good then core.refuse(declared) end

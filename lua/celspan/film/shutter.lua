@@ -40,14 +40,8 @@ end
 local function shutter(_, settings)
   fields.check("shutter", settings, known)
   local angle, samples, frame = settings.angle or 180, settings.samples or 8, settings.frame
-  if not (angle >= 0 and angle <= 360) then
-    core.refuse(("shutter: field 'angle' must be 0..360 degrees, got %s")
-      :format(fields.shown(angle)))
-  end
-  if samples < 1 or samples > 10000 or samples ~= math.floor(samples) then
-    core.refuse(("shutter: field 'samples' must be a whole number, 1..10000, got %s"):format(
-      fields.shown(samples)))
-  end
+  fields.must(angle >= 0 and angle <= 360, "shutter: field 'angle'", "0..360 degrees", angle)
+  fields.whole("shutter: field 'samples'", samples, 1, 10000)
   if not frame then core.refuse("shutter: field 'frame' must be a function, got nil") end
   return function(f)
     local exposures = {}

@@ -34,9 +34,7 @@ local MOST_MARKERS = 100000 -- as a film has marks
 ---@field states string[] State machines of a dotLottie file, which are not run
 ---@field sounds table[] For the `sound` of a film
 ---@field skipped string[] What looks different from other players, each with its place in the JSON
-local Art = {}
-Art.__index = fields.reads("a Lottie animation", Art)
-Art.__name = "celspan.lottie"
+local Art = fields.class("celspan.lottie", "a Lottie animation")
 
 --- Pictures and blurred pictures by animation, both functions of the frame, hidden from scripts.
 local compiled = setmetatable({}, { __mode = "k" })
@@ -199,9 +197,7 @@ local known = { fonts = "table", theme = "string", set = "table" }
 ---@return celspan.lottie.art? art
 ---@return string? message
 function lottie.read(path, options)
-  if type(path) ~= "string" then
-    core.refuse("lottie: read takes a file name, got " .. type(path))
-  end
+  fields.takes("lottie: read", "string", "a file name", path)
   options = options == nil and {} or options
   fields.check("lottie: read", options, known)
   check_names(options)

@@ -53,27 +53,6 @@ function contours.read(given, closed, is_sure)
   return finish(list, closed)
 end
 
---- The same outline in the other direction; a closed one from the same vertex.
-function contours.reverse(list)
-  local turned = { closed = list.closed }
-  for i = #list - 1, 1, -2 do
-    turned[#turned + 1] = list[i]
-    turned[#turned + 1] = list[i + 1]
-  end
-  return turned
-end
-
---- map: as of celspan.affine.
-function contours.transform(list, map)
-  local a, b, c, d, e, f = map[1], map[2], map[3], map[4], map[5], map[6]
-  local moved = { closed = list.closed }
-  for i = 1, #list, 2 do
-    local x, y = list[i], list[i + 1]
-    moved[i], moved[i + 1] = a * x + b * y + c, d * x + e * y + f
-  end
-  return moved
-end
-
 -- ---------------------------------------------------------------- forms
 
 --- An ellipse, clockwise from its top.

@@ -1,6 +1,7 @@
 --- The forms of a shape layer - paths, rectangles, ellipses, stars - as functions of the frame that
 --- return outlines.
 local contours = require "celspan.lottie_contour"
+local curves = require "celspan.curves"
 local property = require "celspan.lottie_property"
 
 local forms = {}
@@ -17,7 +18,7 @@ end
 
 local function directed(list, item)
   if #list == 0 then return {} end
-  return { item.d == 3 and contours.reverse(list) or list }
+  return { item.d == 3 and curves.reversed(list) or list }
 end
 
 local kinds = {}

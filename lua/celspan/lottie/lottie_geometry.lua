@@ -9,7 +9,6 @@
 -- A list of geometries has its `size`, too: the sum of theirs.
 local affine = require "celspan.affine"
 local celspan = require "celspan"
-local contours = require "celspan.lottie_contour"
 local forms = require "celspan.lottie_forms"
 local paint = require "celspan.lottie_paint"
 
@@ -125,7 +124,7 @@ function geometry.copy(list, maps, moves, most)
       local lists = {}
       for _, map in ipairs(maps(t)) do
         for _, outline in ipairs(one.get(t)) do
-          lists[#lists + 1] = contours.transform(outline, map)
+          lists[#lists + 1] = affine.move(map, outline)
         end
       end
       return lists

@@ -3,7 +3,6 @@
 --        first margin       last margin, below 0 inside
 --   *----|--- t e x t ---|----*          perpendicular: letters turn with the way
 local affine = require "celspan.affine"
-local contours = require "celspan.lottie_contour"
 local curves = require "celspan.curves"
 local paint = require "celspan.lottie_paint"
 local property = require "celspan.lottie_property"
@@ -66,7 +65,7 @@ function text_path.compile(scope, item)
   local way = paint.memo(moves(), function(t)
     local list = outline(t)
     if #list == 0 then return false end
-    local curve = curves.of("lottie", { reversed(t) ~= 0 and contours.reverse(list) or list })
+    local curve = curves.of("lottie", { reversed(t) ~= 0 and curves.reversed(list) or list })
     return curve and curve.length > 0 and curve or false
   end)
   return function(list, justify, t)

@@ -226,10 +226,7 @@ function bones.chain_of(rig, joint, count)
     if bone.to == joint then chain[1] = bone end
   end
   if not chain[1] then refuse("reach: no bone ends at the joint '%s'", joint) end
-  if count < 1 or count ~= math.floor(count) then
-    refuse("reach '%s': field 'bones' must be a whole number of at least 1, got %s", joint,
-      fields.shown(count))
-  end
+  fields.whole(("puppet: reach '%s': field 'bones'"):format(joint), count, 1)
   while #chain < count and chain[1].parent do table.insert(chain, 1, chain[1].parent) end
   return chain
 end

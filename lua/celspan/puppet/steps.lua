@@ -10,8 +10,7 @@ local fields = require "celspan.fields"
 local function refuse(text, ...) core.refuse("puppet: " .. text:format(...)) end
 
 ---@class celspan.puppet.steps
-local Steps = { __name = "celspan.puppet.steps" }
-Steps.__index = fields.reads("steps", Steps)
+local Steps = fields.class("celspan.puppet.steps", "steps")
 
 local known_steps = { stride = "number", period = "number", lift = "number", ground = "number",
                       x = "number", share = "number" }
@@ -25,12 +24,8 @@ local function steps(settings)
     if not settings[name] then refuse("steps needs the field '%s', a number", name) end
   end
   local share = settings.share or 0.6
-  if settings.period <= 0 then
-    refuse("steps: field 'period' must be more than 0, got %s", fields.shown(settings.period))
-  end
-  if share <= 0 or share >= 1 then
-    refuse("steps: field 'share' must be between 0 and 1, got %s", fields.shown(share))
-  end
+  fields.must(settings.period > 0, "puppet: steps: field 'period'", "more than 0", settings.period)
+  fields.must(share > 0 and share < 1, "puppet: steps: field 'share'", "between 0 and 1", share)
   return setmetatable({ stride = settings.stride, period = settings.period, share = share,
     lift = settings.lift or math.abs(settings.stride) / 8, ground = settings.ground,
     start = settings.x or 0 }, Steps)

@@ -44,10 +44,8 @@ local function over_time(given, check)
 end
 
 local function check_angle(degrees)
-  if not fields.is_finite(degrees) then
-    refuse("field 'angle' must be degrees, or a function of the time that returns them, got %s",
-      fields.shown(degrees))
-  end
+  fields.must(fields.is_finite(degrees), "puppet: tail: field 'angle'",
+    "degrees, or a function of the time that returns them", degrees)
 end
 
 local function check_wind(x, y)
@@ -62,14 +60,8 @@ local function check_numbers(given)
     if given[name] == nil then refuse("needs the field '%s'", name) end
   end
   local links = given.links or 6
-  if links < 1 or links > MOST_LINKS or links ~= math.floor(links) then
-    refuse("field 'links' must be a whole number from 1 to %d, got %s", MOST_LINKS,
-      fields.shown(links))
-  end
-  if given.length <= 0 then
-    refuse("field 'length' must be more than 0, got %s", fields.shown(given.length))
-  end
-  return links
+  fields.must(given.length > 0, "puppet: tail: field 'length'", "more than 0", given.length)
+  return fields.whole("puppet: tail: field 'links'", links, 1, MOST_LINKS)
 end
 
 --- The weights of each link over the same moments. Of a pendulum that is four times as long a swing

@@ -4,7 +4,6 @@
 --   local text = captions:at(f.time)          -- nil between captions
 --
 -- Both formats are blocks between empty lines: an optional name or number, the times, the text.
-local core = require "celspan.core"
 local fields = require "celspan.fields"
 local files = require "celspan.files"
 local ordered = require "celspan.ordered"
@@ -18,9 +17,7 @@ local captions = {}
 ---@field markup string As it is written
 
 ---@class celspan.captions: celspan.captions.caption[] In the order of `from`
-local Captions = {}
-Captions.__index = fields.reads("a list of captions", Captions)
-Captions.__name = "celspan.captions"
+local Captions = fields.class("celspan.captions", "a list of captions")
 
 local MOST_HOURS = 1000000
 
@@ -166,14 +163,9 @@ end
 ---@return celspan.captions? captions
 ---@return string? message
 function captions.decode(text)
-  if type(text) ~= "string" then
-    core.refuse("captions: decode takes a string, got " .. type(text))
-  end
+  fields.takes("captions: decode", "string", "a string", text)
   if not utf8.len(text) then return nil, "the text is not UTF-8" end
-  local good, list = pcall(decode, text)
-  if not good and type(list) ~= "table" then error(list, 0) end
-  if not good then return nil, list.message end
-  return list
+  return fields.caught(decode, text)
 end
 
 --- Reads captions from a file.
@@ -181,9 +173,7 @@ end
 ---@return celspan.captions? captions
 ---@return string? message
 function captions.read(path)
-  if type(path) ~= "string" then
-    core.refuse("captions: read takes a file name, got " .. type(path))
-  end
+  fields.takes("captions: read", "string", "a file name", path)
   local text, message = files.read_found(path, files.MOST_CAPTIONS)
   if not text then return nil, message end
   local list, problem = captions.decode(text)

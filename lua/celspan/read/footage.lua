@@ -113,7 +113,7 @@ local function open_files(given)
     refuse "field 'alpha' is for movies; the alpha of numbered files is that of their format"
   end
   local fps = given.fps or RATE
-  if fps <= 0 then refuse("field 'fps' must be above 0, got %s", fields.shown(fps)) end
+  fields.must(fps > 0, "footage: field 'fps'", "above 0", fps)
   local texture, size = open_textures(given, numbers)
   return { size = size, fps = fps, count = #numbers, finish = #numbers / fps, slack = 1e-6,
            sound = false, time = function(i) return (i - 1) / fps end, texture = texture }
@@ -225,9 +225,8 @@ end
 
 local function check_times(given, source)
   local from, to, speed = given.from or 0, given.to, given.speed or 1
-  if speed <= 0 or speed > FASTEST then
-    refuse("field 'speed' must be above 0 and at most %d, got %s", FASTEST, fields.shown(speed))
-  end
+  fields.must(speed > 0 and speed <= FASTEST, "footage: field 'speed'",
+    ("above 0 and at most %d"):format(FASTEST), speed)
   if from < 0 or from >= source.finish then
     refuse("field 'from' must be from 0 to before the end, at %.6g seconds, got %s", source.finish,
       fields.shown(from))

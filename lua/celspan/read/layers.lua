@@ -334,13 +334,10 @@ end
 ---@return celspan.layers.tree? tree
 ---@return string? message
 function layers.read(path, options)
-  if type(path) ~= "string" then
-    core.refuse("layers: read takes the name of a file or folder, got " .. fields.kind(path))
-  end
+  fields.takes("layers: read", "string", "the name of a file or folder", path)
   options = options or {}
   fields.check("layers: read", options, { smooth = "boolean", space = "any" })
-  local wrong = fields.space("layers", options.space)
-  if wrong then core.refuse(wrong) end
+  fields.space("layers", options.space)
   local found_at, tried = core.find(path)
   local tree, message = read_any(found_at, { smooth = options.smooth,
                                              space = options.space or "srgb" })
@@ -380,9 +377,7 @@ end
 ---@return celspan.layers.entry? entry
 function methods:find(path)
   fields.self("layers", Tree, self, "find")
-  if type(path) ~= "string" then
-    core.refuse("layers: find takes a path like \"group/layer\", got " .. fields.kind(path))
-  end
+  fields.takes("layers: find", "string", "a path like \"group/layer\"", path)
   return find(self, path)
 end
 
@@ -451,9 +446,7 @@ end
 ---@return celspan.layers.tree
 function methods:with(changes)
   fields.self("layers", Tree, self, "with")
-  if type(changes) ~= "table" then
-    core.refuse("layers: with takes a table of functions by path, got " .. fields.kind(changes))
-  end
+  fields.takes("layers: with", "table", "a table of functions by path", changes)
   for path, change in next, changes do
     self:get(path)
     if type(change) ~= "function" then
@@ -474,9 +467,7 @@ local function nothing() return celspan.union {} end
 ---@return celspan.layers.tree
 function methods:show(choices)
   fields.self("layers", Tree, self, "show")
-  if type(choices) ~= "table" then
-    core.refuse("layers: show takes a table of names by set, got " .. fields.kind(choices))
-  end
+  fields.takes("layers: show", "table", "a table of names by set", choices)
   local paths, changes = {}, {}
   for _, path in ipairs(add_paths(self, "", {})) do paths[path] = true end
   for _, path in ipairs(sets.hidden("layers: show", "the painting", paths, choices)) do

@@ -12,6 +12,7 @@ local core = require "celspan.core"
 local fields = require "celspan.fields"
 local files = require "celspan.files"
 local json = require "celspan.json"
+local sheet_oca = require "celspan.sheet_oca"
 
 local oca = {}
 
@@ -22,27 +23,7 @@ local function fail(...) error({ message = string.format(...) }, 0) end
 
 -- ---------------------------------------------------------------- values
 
-local words = { number = "number", string = "string", boolean = "boolean", table = "list" }
-
---- A value of an object of the document, or its default. what: the object, for messages.
-local function value_of(object, what, name, default)
-  local value = object[name]
-  if value == nil or value == json.null then return default end
-  local wanted = type(default)
-  if type(value) ~= wanted then
-    fail("%s: %s must be a %s, got %s", what, name, words[wanted], fields.kind(value))
-  end
-  return value
-end
-
-local function number_of(object, what, name, default, least, most)
-  local number = value_of(object, what, name, default)
-  if not (number >= least and number <= most) then
-    fail("%s: %s is %s; it must be a number from %.10g to %.10g", what, name, fields.shown(number),
-      least, most)
-  end
-  return number
-end
+local value_of, number_of = sheet_oca.value, sheet_oca.number
 
 --- The corner and size of something with a given centre.
 local function place_of(object, what, width, height)
@@ -226,10 +207,9 @@ function oca.read(folder, document)
   local path = folder .. "/" .. document
   local text, message = files.read(path, json.most_bytes)
   if not text then return nil, message end
-  local good, read = pcall(read_document, folder, text)
-  if good then return read end
-  if type(read) ~= "table" then error(read, 0) end
-  return nil, ("%s: %s"):format(path, read.message)
+  local read, fault = fields.caught(read_document, folder, text)
+  if not read then return nil, ("%s: %s"):format(path, fault) end
+  return read
 end
 
 return fields.publish("oca", oca)

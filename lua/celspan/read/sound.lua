@@ -163,9 +163,7 @@ end
 ---@return celspan.sound.loudness? sound
 ---@return string? message
 function sound.read(file)
-  if type(file) ~= "string" then
-    core.refuse("sound: read takes a file name, got " .. type(file))
-  end
+  fields.takes("sound: read", "string", "a file name", file)
   local paths = { core.is_data(file) and file or core.find(file) }
   local seconds, sums = core.hear(table.unpack(paths))
   if not seconds then return nil, sums end

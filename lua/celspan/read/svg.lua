@@ -29,9 +29,7 @@ local svg = {}
 ---@field parts table<string, celspan.object> By id, or by Inkscape label if only one element has it
 ---@field skipped celspan.svg.skipped[] The parts that were not drawn
 ---@field seconds? number How long it moves: up to the end of the last animation that ends, or the longest period where all repeat for ever
-local Art = {}
-Art.__index = fields.reads("a drawing", Art, { seconds = true, __has_changes = true })
-Art.__name = "celspan.svg"
+local Art = fields.class("celspan.svg", "a drawing", { seconds = true, __has_changes = true })
 
 --- Drawings by the key of the core's cached drawing, as long as references to them exist.
 local known = setmetatable({}, { __mode = "v" })
@@ -72,9 +70,7 @@ end
 ---@return celspan.svg.art
 function Art:with(changes)
   fields.self("svg", Art, self, "with")
-  if type(changes) ~= "table" then
-    core.refuse("svg: with takes a table of functions by part, got " .. fields.kind(changes))
-  end
+  fields.takes("svg: with", "table", "a table of functions by part", changes)
   local names = {}
   for name in pairs(self.parts) do names[#names + 1] = name end
   table.sort(names)
@@ -168,9 +164,7 @@ end
 ---@return celspan.svg.art
 function Art:show(choices)
   fields.self("svg", Art, self, "show")
-  if type(choices) ~= "table" then
-    core.refuse("svg: show takes a table of names by set, got " .. fields.kind(choices))
-  end
+  fields.takes("svg: show", "table", "a table of names by set", choices)
   local changes, paths = {}, paths_of(self)
   for _, name in ipairs(sets.hidden("svg: show", "the drawing", paths, choices)) do
     changes[paths[name]] = nothing
@@ -183,34 +177,17 @@ end
 ---@field space? "srgb"|"linear" In which colours are mixed: "srgb", as other programs do, unless another is given
 
 --- The fonts as a list, sorted by family.
-local function list_fonts(options, find)
+local function list_fonts(options)
   local list = {}
   for family, file in next, options.fonts or {} do
     if type(family) ~= "string" or type(file) ~= "string" then
-      return nil, ("svg: fonts is a table of files by family, such as { Arial = \"arial.ttf\" }, "
-        .. "got %s = %s")
-        :format(fields.key(family), fields.kind(file))
+      core.refuse(("svg: fonts is a table of files by family, such as { Arial = \"arial.ttf\" }, "
+        .. "got %s = %s"):format(fields.key(family), fields.kind(file)))
     end
-    list[#list + 1] = { family, find(file) }
+    list[#list + 1] = { family, core.find(file) }
   end
   table.sort(list, function(a, b) return a[1] < b[1] end)
   return list
-end
-
-local function check_options(options)
-  if type(options) ~= "table" then
-    return "svg: read's options are a table, got " .. fields.kind(options)
-  end
-  for name in next, options do
-    if name ~= "fonts" and name ~= "space" then
-      return ("svg: read has no option '%s'; it has fonts and space"):format(fields.key(name))
-    end
-  end
-  local wrong = fields.space("svg", options.space)
-  if wrong then return wrong end
-  if options.fonts ~= nil and type(options.fonts) ~= "table" then
-    return "svg: fonts is a table of files by family, got " .. fields.kind(options.fonts)
-  end
 end
 
 ---@param path string Relative to the caller's file, else to the script
@@ -218,15 +195,12 @@ end
 ---@return celspan.svg.art? art
 ---@return string? message
 function svg.read(path, options)
-  if type(path) ~= "string" then core.refuse("svg: read takes a file name, got " .. type(path)) end
+  fields.takes("svg: read", "string", "a file name", path)
   options = options == nil and {} or options
-  local wrong = check_options(options)
-  if wrong then core.refuse(wrong) end
+  fields.check("svg: read", options, { fonts = "table", space = "any" })
+  fields.space("svg", options.space)
   local found_at, tried = core.find(path)
-  local fonts, refused = list_fonts(options, core.find)
-  if not fonts then core.refuse(refused) end
-  local space = options.space or "srgb"
-  local drawing, message = core.read_svg(found_at, fonts, space)
+  local drawing, message = core.read_svg(found_at, list_fonts(options), options.space or "srgb")
   if drawing then return wrap(drawing) end
   return nil, tried and ("%s; also looked for at %s"):format(message, tried) or message
 end

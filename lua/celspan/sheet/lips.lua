@@ -21,9 +21,7 @@ local lips = {}
 ---@field fps number
 ---@field shapes string[]
 ---@field rest any The shape after the last frame
-local Track = {}
-Track.__index = fields.reads("a track of mouths", Track)
-Track.__name = "celspan.lips"
+local Track = fields.class("celspan.lips", "a track of mouths")
 
 --- The replacements for shapes that a set of drawings lacks, as Rhubarb defines them.
 local fallbacks = { G = "A", H = "C", X = "A" }
@@ -36,13 +34,9 @@ local SHIFT_MOST = 1e6 -- frames before a line
 --- Checks ranges; names and types have already been checked.
 local function check_ranges(options)
   local fps, hold = options.fps or 24, options.hold or 2
-  if not (fps > 0 and fps <= 1000) then
-    core.refuse("lips: field 'fps' must be above 0 and at most 1000, got " .. fields.shown(fps))
-  end
-  if hold < 1 or hold ~= math.floor(hold) then
-    core.refuse("lips: field 'hold' must be a whole number of frames, 1 or more, got "
-      .. fields.shown(hold))
-  end
+  fields.must(fps > 0 and fps <= 1000, "lips: field 'fps'", "above 0 and at most 1000", fps)
+  fields.must(hold >= 1 and hold == math.floor(hold), "lips: field 'hold'",
+    "a whole number of frames, 1 or more", hold)
   if math.abs((options.start or 0) * fps) > SHIFT_MOST then
     core.refuse(("lips: field 'start' must be within %d frames, got %s seconds"):format(SHIFT_MOST,
       fields.shown(options.start)))

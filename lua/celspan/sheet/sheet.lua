@@ -114,14 +114,6 @@ local function finish(found)
   return made
 end
 
---- The result of a reader or writer, or nil and the message that it raised.
-local function caught(work, ...)
-  local good, value = pcall(work, ...)
-  if good then return value end
-  if type(value) ~= "table" then error(value, 0) end
-  return nil, value.message
-end
-
 -- ---------------------------------------------------------------- new
 
 local known_fields = { name = "string", scene = "string", cut = "string", fps = "number",
@@ -240,7 +232,7 @@ end
 ---@return celspan.sheet
 function sheet.new(given)
   fields.check("sheet", given, known_fields)
-  local made, message = caught(make, given)
+  local made, message = fields.caught(make, given)
   return made or core.refuse("sheet: " .. message)
 end
 
@@ -283,9 +275,7 @@ end
 ---@return celspan.sheet? sheet
 ---@return string? message
 function sheet.read(path, options)
-  if type(path) ~= "string" then
-    core.refuse("sheet: read takes the name of a file or folder, got " .. fields.kind(path))
-  end
+  fields.takes("sheet: read", "string", "the name of a file or folder", path)
   options = options or {}
   fields.check("sheet: read", options, { table = "any" })
   local found_at, tried = core.find(path)
@@ -294,7 +284,7 @@ function sheet.read(path, options)
     return nil, tried and ("%s; also looked for at %s"):format(message, tried) or message
   end
   local made
-  made, message = caught(decode, text, path, options.table or 1)
+  made, message = fields.caught(decode, text, path, options.table or 1)
   if not made then return nil, ("%s: %s"):format(path, message) end
   return made
 end
@@ -479,7 +469,7 @@ end
 ---@return string? message
 function methods:text()
   fields.self("sheet", Sheet, self, "text")
-  return caught(sheet_text.encode, plain(self))
+  return fields.caught(sheet_text.encode, plain(self))
 end
 
 local writers = { xdts = xdts.encode, csv = sheet_csv.encode, txt = sheet_text.encode }
@@ -490,14 +480,12 @@ local writers = { xdts = xdts.encode, csv = sheet_csv.encode, txt = sheet_text.e
 ---@return string? message
 function methods:write(path)
   fields.self("sheet", Sheet, self, "write")
-  if type(path) ~= "string" then
-    core.refuse("sheet: write takes the name of a file, got " .. fields.kind(path))
-  end
+  fields.takes("sheet: write", "string", "the name of a file", path)
   local encode = writers[(path:match "%.(%w+)$" or ""):lower()]
   if not encode then
     return nil, ("%s: sheets are written as .xdts, .csv or .txt"):format(path)
   end
-  local text, refused = caught(encode, plain(self))
+  local text, refused = fields.caught(encode, plain(self))
   if not text then return nil, ("%s: %s"):format(path, refused) end
   return files.write(path, text)
 end
@@ -589,7 +577,7 @@ function sheet.of(film, options)
   for index = 1, count do
     add_frame(state, core.parts(film:at(listed and listed[index] or film.first + index - 1)), index)
   end
-  local made, message = caught(finish, { name = film.title, fps = film.fps, frames = count,
+  local made, message = fields.caught(finish, { name = film.title, fps = film.fps, frames = count,
     layers = state.layers, notes = {}, width = film.size[1], height = film.size[2] })
   return made or core.refuse("sheet: " .. message)
 end

@@ -11,7 +11,8 @@ local sheet_oca = {}
 
 local words = { table = "list" }
 
-local function get(object, what, name, default)
+--- A value of an object of the document, or its default. what: the object, for messages.
+function sheet_oca.value(object, what, name, default)
   local value = object[name]
   if value == nil or value == json.null then return default end
   if type(value) ~= type(default) then
@@ -21,14 +22,16 @@ local function get(object, what, name, default)
   return value
 end
 
-local function number_of(object, what, name, default, least, most)
-  local number = get(object, what, name, default)
+function sheet_oca.number(object, what, name, default, least, most)
+  local number = sheet_oca.value(object, what, name, default)
   if not (number >= least and number <= most) then
     columns.fail("%s: %s is %s; it must be a number from %.10g to %.10g", what, name,
       fields.shown(number), least, most)
   end
   return number
 end
+
+local get, number_of = sheet_oca.value, sheet_oca.number
 
 --- A number of frames; some programs write it as a float.
 local function frame_of(object, what, name, default, least)

@@ -178,9 +178,7 @@ end
 
 local function find(_, name)
   if type(name) == "function" then return name end
-  if type(name) ~= "string" then
-    core.refuse("ease: takes a curve's name or a function, got " .. type(name))
-  end
+  fields.takes("ease:", "string", "a curve's name or a function", name)
   local kind, text = name:match "^([%a-]+)[:(](.-)%)?$"
   if kind == "steps" then return steps(text) end
   if kind == "bezier" or kind == "cubic-bezier" then return bezier(text) end

@@ -16,9 +16,7 @@ local pathdata = require "celspan.pathdata"
 local poses = require "celspan.poses"
 
 ---@class celspan.keys.track
-local Track = {}
-Track.__index = fields.reads("a track of keys", Track, { loop = true })
-Track.__name = "celspan.keys"
+local Track = fields.class("celspan.keys", "a track of keys", { loop = true })
 
 local paint_metatable = getmetatable(celspan.clear)
 

@@ -20,9 +20,7 @@ local motion = {}
 
 ---@class celspan.motion.way
 ---@field length number
-local Way = {}
-Way.__index = fields.reads("a way", Way)
-Way.__name = "celspan.motion.way"
+local Way = fields.class("celspan.motion.way", "a way")
 
 --- A list of points, which have two numbers each, as contours; contours have more numbers.
 local function contours_of(given)
@@ -63,19 +61,21 @@ function Way:at(u)
 end
 
 ---@class celspan.motion.wiggle
-local Wiggle = {}
-Wiggle.__index = fields.reads("a wiggle", Wiggle)
-Wiggle.__name = "celspan.motion.wiggle"
+local Wiggle = fields.class("celspan.motion.wiggle", "a wiggle")
+
+local function check_seed(name, seed)
+  if type(seed) ~= "string" and not fields.is_finite(seed) then
+    core.refuse(("motion: %s takes a seed, a string or a finite number, got %s"):format(name,
+      fields.shown(seed)))
+  end
+end
 
 --- A smooth random movement: the same for the same seed, on every machine.
 ---@param seed string|integer
 ---@param settings? {frequency?: number, amplitude?: number} Changes per second (1); largest value (1)
 ---@return celspan.motion.wiggle
 function motion.wiggle(seed, settings)
-  if type(seed) ~= "string" and not fields.is_finite(seed) then
-    core.refuse("motion: wiggle takes a seed, a string or a finite number, got "
-      .. fields.shown(seed))
-  end
+  check_seed("wiggle", seed)
   settings = settings or {}
   fields.check("motion", settings, { frequency = "number", amplitude = "number" })
   return setmetatable({ seed = chance.seed(seed), frequency = settings.frequency or 1,
@@ -120,10 +120,7 @@ local function blend(a, b, t) return a + (b - a) * t end
 ---@param seed string|integer
 ---@return fun(x: number, y?: number, z?: number): number
 function motion.noise(seed)
-  if type(seed) ~= "string" and not fields.is_finite(seed) then
-    core.refuse("motion: noise takes a seed, a string or a finite number, got "
-      .. fields.shown(seed))
-  end
+  check_seed("noise", seed)
   local hash = chance.seed(seed)
   return function(x, y, z)
     for i, value in ipairs { x or 0 / 0, y or 0, z or 0 } do
@@ -148,9 +145,7 @@ end
 -- ---------------------------------------------------------------- values that follow others
 
 ---@class celspan.motion.follower
-local Follower = {}
-Follower.__index = fields.reads("a motion that follows", Follower)
-Follower.__name = "celspan.motion.follower"
+local Follower = fields.class("celspan.motion.follower", "a motion that follows")
 
 --- A weighted sum of values: numbers, and tables of them, such as poses. Values that are not
 --- numbers are those of the first.

@@ -36,8 +36,7 @@ local LAST = 2 ^ 48  -- later births have no exact numbers
 ---@field dy number
 
 ---@class celspan.particles.source
-local Source = { __name = "celspan.particles" }
-Source.__index = fields.reads("particles", Source)
+local Source = fields.class("celspan.particles", "particles")
 
 local known = { seed = "any", rate = "number", life = "any", at = "table", velocity = "table",
                 gravity = "table", drag = "number", field = "function", from = "number",
@@ -73,16 +72,14 @@ end
 local function new(_, given)
   fields.check("particles", given, known)
   local rate = given.rate
-  if not rate or rate <= 0 then
-    refuse("field 'rate' must be particles per second, above 0, got %s", fields.shown(rate))
-  end
+  fields.must(rate and rate > 0, "particles: field 'rate'", "particles per second, above 0", rate)
   local life = read_life(given.life)
   if rate * (life[1] + life[2]) > MOST then
     refuse("%.14g a second that live %.14g seconds are more than %d at one time, which is the "
       .. "limit", rate, life[1] + life[2], MOST)
   end
   local drag = given.drag or 0
-  if drag < 0 then refuse("field 'drag' must be 0 or more, got %s", fields.shown(drag)) end
+  fields.must(drag >= 0, "particles: field 'drag'", "0 or more", drag)
   return setmetatable({ seed = chance.seed(given.seed or "particles"), rate = rate,
     life = life, place = read_spread("at", given.at, { 0, 0, 0, 0 }),
     velocity = read_spread("velocity", given.velocity, { 0, 0, 0, 0 }),

@@ -4,7 +4,6 @@
 --       |     /   `-._.-------         some time after the end was moved. A movement is many small
 --       |    /                         steps, so where the mass is now is a sum over the moments
 --     0 |___/________________ time     before: each has the weight by which the response grew.
-local core = require "celspan.core"
 local fields = require "celspan.fields"
 
 local springs = {}
@@ -13,14 +12,8 @@ local pi, sin, cos, exp = math.pi, math.sin, math.cos, math.exp
 
 --- Refuses a number of swings per second, in the field `name`, or a damping that no spring has.
 function springs.check(noun, name, frequency, damping)
-  if frequency <= 0 then
-    core.refuse(("%s: field '%s' must be more than 0, got %s"):format(noun, name,
-      fields.shown(frequency)))
-  end
-  if damping < 0.05 or damping > 1 then
-    core.refuse(("%s: field 'damping' must be 0.05 to 1, got %s"):format(noun,
-      fields.shown(damping)))
-  end
+  fields.must(frequency > 0, ("%s: field '%s'"):format(noun, name), "more than 0", frequency)
+  fields.must(damping >= 0.05 and damping <= 1, noun .. ": field 'damping'", "0.05 to 1", damping)
 end
 
 --- The share of its way that the mass has gone, by the time after its end was moved.

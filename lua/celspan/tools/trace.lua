@@ -110,9 +110,7 @@ end
 ---@return celspan.trace.art? art
 ---@return string? message
 function trace.picture(path, options)
-  if type(path) ~= "string" then
-    core.refuse("trace: picture takes a file name, got " .. fields.kind(path))
-  end
+  fields.takes("trace: picture", "string", "a file name", path)
   options = options == nil and {} or options
   fields.check("trace: picture", options, known)
   local checked, refused = check(options)

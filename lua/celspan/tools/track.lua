@@ -236,9 +236,7 @@ end
 ---@return celspan.track? track
 ---@return string? message
 function track.follow(pattern, options)
-  if type(pattern) ~= "string" then
-    core.refuse("track: follow takes the pattern of files, got " .. fields.kind(pattern))
-  end
+  fields.takes("track: follow", "string", "the pattern of files", pattern)
   local model = check_options(options)
   local from = math.tointeger(options.from)
   local where, message = find_pattern(pattern, from)
@@ -297,9 +295,7 @@ end
 ---@return string? message
 function methods:write(path)
   fields.self("track", Track, self, "write")
-  if type(path) ~= "string" then
-    core.refuse("track: write takes the name of a file, got " .. fields.kind(path))
-  end
+  fields.takes("track: write", "string", "the name of a file", path)
   return files.write(path, self:text())
 end
 
@@ -357,17 +353,14 @@ end
 ---@return celspan.track? track
 ---@return string? message
 function track.read(path)
-  if type(path) ~= "string" then
-    core.refuse("track: read takes a file name, got " .. type(path))
-  end
+  fields.takes("track: read", "string", "a file name", path)
   local text, message = files.read_found(path, MOST_BYTES)
   if not text then return nil, message end
   local value, problem = json.decode(text)
   if value == nil then return nil, ("%s: %s"):format(path, problem or "holds null") end
-  local good, result = pcall(from_value, value)
-  if good then return result end
-  if type(result) ~= "table" then error(result, 0) end
-  return nil, ("%s: %s"):format(path, result.message)
+  local result, fault = fields.caught(from_value, value)
+  if not result then return nil, ("%s: %s"):format(path, fault) end
+  return result
 end
 
 return fields.publish("track", track, methods)

@@ -187,6 +187,10 @@ void *cs_mem_resize(cs_memory *memory, void *storage, size_t old_size, size_t ne
   return resized;
 }
 
+void *cs_mem_resize_of(void *user, void *storage, size_t old_size, size_t new_size) {
+  return cs_mem_resize(user, storage, old_size, new_size);
+}
+
 void cs_mem_free(cs_memory *memory, void *storage, size_t size) {
   if (storage)
     cs_mem_resize(memory, storage, size, 0);

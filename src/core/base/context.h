@@ -128,6 +128,8 @@ size_t cs_account_scene_bytes(const cs_memory *memory);
 /* Allocates, resizes or (new_size 0) frees; NULL if there is no memory. Any thread. It does not
  * record an error: callers that return a status use cs_fail_memory. */
 void *cs_mem_resize(cs_memory *memory, void *storage, size_t old_size, size_t new_size);
+/* The same for other libraries. user: a cs_memory. */
+void *cs_mem_resize_of(void *user, void *storage, size_t old_size, size_t new_size);
 void cs_mem_free(cs_memory *memory, void *storage, size_t size);
 /* count items of item_size bytes, zeroed. NULL on overflow, without memory, and for count 0. */
 void *cs_mem_array(cs_memory *memory, size_t count, size_t item_size);

@@ -259,7 +259,7 @@ static celspan_status run_shoot(render_job *job) {
                     .keeps_nothing = keeps_nothing(job),
                     .user = job,
                     .write = job->row->write ? write_frame : NULL,
-                    .hash = job->row->is_apart ? cs_apart_hash : NULL,
+                    .hash = job->row->layers ? cs_apart_hash : NULL,
                     .keep = job->resumes ? keep : NULL,
                     .build = build,
                     .finished = finished,

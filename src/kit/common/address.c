@@ -64,9 +64,12 @@ static bool decode_base64(const char *text, cs_address_data *out) {
 size_t cs_address_encoded_size(size_t size) { return PREFIX_SIZE + (size + 2) / 3 * 4; }
 
 void cs_address_encode(const unsigned char *bytes, size_t size, char *out) {
-  static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   memcpy(out, PREFIX, PREFIX_SIZE);
-  out += PREFIX_SIZE;
+  cs_address_digits(bytes, size, out + PREFIX_SIZE);
+}
+
+void cs_address_digits(const unsigned char *bytes, size_t size, char *out) {
+  static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   for (size_t at = 0; at < size; at += 3, out += 4) {
     size_t rest = size - at;
     uint32_t bits = (uint32_t)bytes[at] << 16 | (rest > 1 ? (uint32_t)bytes[at + 1] << 8 : 0) |

@@ -24,6 +24,8 @@ void cs_address_finish(cs_address_data *data, celspan_context *context);
  * and without an end of text. */
 size_t cs_address_encoded_size(size_t size);
 void cs_address_encode(const unsigned char *bytes, size_t size, char *out);
+/* Writes the digits of base64 for bytes, 4 for each 3 of them, filled up by "=". */
+void cs_address_digits(const unsigned char *bytes, size_t size, char *out);
 /* The byte that an escape such as "%41" means; -1 where text does not begin with one. */
 int cs_address_unescape(const char *text);
 /* Makes a file without a name, in memory, that contains these bytes, for libraries and programs

@@ -12,25 +12,20 @@
 #include <stdint.h>
 #include <string.h>
 
+#include "common/bytes.h"
+#include "common/utf8.h"
 #include "inside/pictures.h"
 
 #define CS_PROFILE_UNNAMED "without a name"
 
-static inline uint32_t cs_profile_name_word(const unsigned char *at) {
-  return (uint32_t)at[0] << 24 | (uint32_t)at[1] << 16 | (uint32_t)at[2] << 8 | at[3];
-}
-
 /* Appends a character in UTF-8; what could end a line becomes a question mark. */
 static inline size_t cs_profile_name_put(char out[CS_PICTURE_SPACE], size_t used, uint32_t code) {
   char bytes[4];
-  size_t size = code < 0x80 ? 1 : code < 0x800 ? 2 : code < 0x10000 ? 3 : 4;
   if (code < 0x20 || (code >= 0x7f && code < 0xa0) || (code >= 0xd800 && code < 0xe000))
-    code = '?', size = 1;
+    code = '?';
+  size_t size = cs_utf8_put(bytes, code);
   if (used + size >= CS_PICTURE_SPACE)
     return used;
-  for (size_t i = size - 1; i > 0; i--, code >>= 6)
-    bytes[i] = (char)(0x80 | (code & 0x3f));
-  bytes[0] = (char)(size == 1 ? code : (0xf00u >> size & 0xff) | code);
   memcpy(out + used, bytes, size);
   return used + size;
 }
@@ -65,10 +60,10 @@ static inline void cs_profile_name_plain(const unsigned char *at, size_t size,
 static inline void cs_profile_name_text(const unsigned char *value, size_t size,
                                         char out[CS_PICTURE_SPACE]) {
   if (size >= 12 && memcmp(value, "desc", 4) == 0) {
-    size_t told = cs_profile_name_word(value + 8), most = size - 12;
+    size_t told = cs_bytes_big32(value + 8), most = size - 12;
     cs_profile_name_plain(value + 12, told < most ? told : most, out);
-  } else if (size >= 28 && memcmp(value, "mluc", 4) == 0 && cs_profile_name_word(value + 8) > 0) {
-    size_t length = cs_profile_name_word(value + 20), from = cs_profile_name_word(value + 24);
+  } else if (size >= 28 && memcmp(value, "mluc", 4) == 0 && cs_bytes_big32(value + 8) > 0) {
+    size_t length = cs_bytes_big32(value + 20), from = cs_bytes_big32(value + 24);
     if (from <= size && length <= size - from)
       cs_profile_name_wide(value + from, length, out);
   }
@@ -78,11 +73,11 @@ static inline void cs_profile_name_text(const unsigned char *value, size_t size,
 static inline void cs_profile_name_read(const void *profile, size_t size,
                                         char out[CS_PICTURE_SPACE]) {
   const unsigned char *bytes = (const unsigned char *)profile;
-  size_t count = size >= 132 ? cs_profile_name_word(bytes + 128) : 0;
+  size_t count = size >= 132 ? cs_bytes_big32(bytes + 128) : 0;
   out[0] = '\0';
   for (size_t i = 0; i < count && i < (size - 132) / 12; i++) {
     const unsigned char *tag = bytes + 132 + 12 * i;
-    size_t from = cs_profile_name_word(tag + 4), length = cs_profile_name_word(tag + 8);
+    size_t from = cs_bytes_big32(tag + 4), length = cs_bytes_big32(tag + 8);
     if (memcmp(tag, "desc", 4) == 0 && from <= size && length <= size - from)
       cs_profile_name_text(bytes + from, length, out);
   }

@@ -275,6 +275,40 @@ static void check_discard_and_places(celspan_context *context) {
   cs_file_discard(NULL, context);
 }
 
+typedef struct compared {
+  size_t done, calls_left;
+  bool is_equal;
+} compared;
+
+static celspan_status compare_part(void *user, const void *bytes, size_t size) {
+  compared *c = user;
+  c->is_equal &= size <= CONTENT - c->done && memcmp(bytes, content + c->done, size) == 0;
+  c->is_equal &= size % 3 == 0 || c->done + size == CONTENT;
+  c->done += size;
+  return c->calls_left-- > 0 ? CELSPAN_OK : CELSPAN_CANCELLED;
+}
+
+/* The bytes of a file that is not complete are given as they were written; what takes them may end
+ * that, and a file that has lost some is reported. */
+static void check_again(celspan_context *context) {
+  char path[256];
+  cs_file *file;
+  const char *name;
+  in_root(path, "again");
+  CHECK(cs_file_create(context, NULL, path, &file) == CELSPAN_OK);
+  CHECK(cs_file_write(file, context, content, 37000) == CELSPAN_OK);
+  CHECK(cs_file_write(file, context, content + 37000, CONTENT - 37000) == CELSPAN_OK);
+  compared all = {.calls_left = 100, .is_equal = true}, one = {.is_equal = true};
+  CHECK(cs_file_again(file, context, compare_part, &all) == CELSPAN_OK);
+  CHECK(all.is_equal && all.done == CONTENT);
+  CHECK(cs_file_again(file, context, compare_part, &one) == CELSPAN_CANCELLED);
+  CHECK(one.is_equal && one.done > 0 && one.done < CONTENT);
+  CHECK(cs_file_temporary(file, context, &name) == CELSPAN_OK && truncate(name, 1000) == 0);
+  CHECK(cs_file_again(file, context, compare_part, &all) == CELSPAN_OUTPUT);
+  CHECK(strstr(celspan_context_error(context), "cannot read its temporary file back"));
+  CHECK(cs_file_commit(file, context) == CELSPAN_OUTPUT && state_of(path) == 0);
+}
+
 /* The recorded digest of a file is that of the bytes written, whatever happens to the file
  * later. */
 static void check_contents(celspan_context *context) {
@@ -361,6 +395,7 @@ int main(void) {
   check_long_name(context);
   check_discard_and_places(context);
   check_swept(context);
+  check_again(context);
   check_contents(context);
   check_copies(context);
   celspan_context_memory(context, &after, &peak, &allocations);

@@ -8,7 +8,7 @@ local truetype = require "tests.support.truetype"
 local system = require "tests.support.system"
 local workbench = require "tests.support.workbench"
 
-local FONT = "../../scripts/type/block.ttf"
+local FONT = "../../../scripts/type/block.ttf"
 local PATH = "scripts/type/block.ttf"
 
 -- Built without the libraries for type, there is nothing to test except the font.
@@ -478,7 +478,7 @@ describe("bad text is refused:", function()
       for i = 1, 17 do list[i] = FONT end
       return list
     end)() }, "17 fonts; at most 16 are allowed" },
-    { "a folder", { "a", font = "../../scripts" }, "is not a file; a font must be one" },
+    { "a folder", { "a", font = "../../../scripts" }, "is not a file; a font must be one" },
     { "an unknown field", { "a", sise = 3 }, "size" },
   }
   for _, case in ipairs(cases) do
@@ -584,7 +584,7 @@ describe("a collection of fonts", function()
     local file = assert(io.open(path, "wb"))
     file:write(collection(2))
     file:close()
-    local plain = { celspan.text { "Again", font = "../../scripts/type/block.ttf" }:bounds() }
+    local plain = { celspan.text { "Again", font = "../../../scripts/type/block.ttf" }:bounds() }
     for face = 1, 2 do
       assert.are.same(plain, { celspan.text { "Again", font = path, face = face }:bounds() })
     end

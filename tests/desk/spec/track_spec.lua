@@ -135,7 +135,7 @@ end)
 describe("the hat of scripts/hat.lua", function()
   it("is placed by its track within half a pixel of the head", function()
     package.path = "scripts/?.lua;" .. package.path
-    local head, t = require "hat.head", assert(track.read "../../scripts/hat/track.json")
+    local head, t = require "hat.head", assert(track.read "../../../scripts/hat/track.json")
     for n = 1, head.frames do
       for _, at in ipairs { { -60, -40 }, { 60, -40 }, { 0, 60 } } do
         local x, y = centre(head.pose(dot(at[1], at[2]), n - 1))

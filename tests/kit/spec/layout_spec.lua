@@ -7,7 +7,7 @@ local raised = require "tests.support.raised"
 local typewriter = require "celspan.typewriter"
 
 local with_art = present.art and it or pending
-local FONT = "../../scripts/type/block.ttf" -- beside this file
+local FONT = "../../../scripts/type/block.ttf" -- beside this file
 
 local function rect(x, y, w, h) return celspan.rect { x, y, w, h } end
 

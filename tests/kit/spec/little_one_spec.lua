@@ -62,7 +62,7 @@ describe("the second film", function()
 end)
 
 describe("the lips", function()
-  local voice = assert(lips.read("../../scripts/film/voice.tsv", { fps = timing.fps }))
+  local voice = assert(lips.read("../../../scripts/film/voice.tsv", { fps = timing.fps }))
 
   it("follow the voice wherever the sheet says so", function()
     local shapes, count = {}, 0

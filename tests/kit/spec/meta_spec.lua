@@ -70,7 +70,7 @@ local samples = {
 }
 
 -- Built without the libraries for type, there is no text to look at.
-samples.text = present.art() and { "x", font = "../../scripts/type/block.ttf" } or nil
+samples.text = present.art() and { "x", font = "../../../scripts/type/block.ttf" } or nil
 
 --- The fields that a constructor says it has, when it is given one that cannot be.
 local function fields_of(constructor)

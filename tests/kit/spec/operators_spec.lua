@@ -500,7 +500,7 @@ end)
 
 describe("operators", function()
   it("work on text, drawings and parts, one after another", function()
-    local text = celspan.text { "AB", font = "../../scripts/type/block.ttf", size = 40,
+    local text = celspan.text { "AB", font = "../../../scripts/type/block.ttf", size = 40,
                                 at = { 0, 40 } }
     local drawing = celspan.union { text:named "word", celspan.group { circle(30):rotate(20) },
       celspan.stroke { d = wave, width = 4 }:scale(2, 0.5) }

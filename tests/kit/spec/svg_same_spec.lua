@@ -9,7 +9,7 @@ local workbench = require "tests.support.workbench"
 local SIDE = 100
 local HEAD = '<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" '
   .. 'width="100" height="100">\n'
-local FONT = "../../scripts/type/block.ttf" -- from this file
+local FONT = "../../../scripts/type/block.ttf" -- from this file
 local bench, count = workbench.new(), 0
 
 --- The file of a drawing 100 by 100 with this in it.

@@ -1222,7 +1222,7 @@ describe("reading", function()
 end)
 
 -- Contents from elsewhere in drawings: texts and images.
-local FONT = "../../scripts/type/block.ttf" -- from this file
+local FONT = "../../../scripts/type/block.ttf" -- from this file
 
 describe("a text", function()
   local function letters(content, fonts)
@@ -1272,7 +1272,7 @@ describe("a text", function()
         letters(('<text x="10" y="50" font-size="16" direction="%s" text-anchor="%s">%s</text>')
         :format(direction, direction == "rtl" and "end" or "start", words))
       assert.are.same({}, art.skipped)
-      local text = celspan.text { words, font = "../../scripts/type/block.ttf", size = 16,
+      local text = celspan.text { words, font = "../../../scripts/type/block.ttf", size = 16,
         at = { 10, 50 }, direction = name }
       local one, other = { art.object:bounds() }, { text:bounds() }
       for i = 1, 4 do assert.is_near(other[i], one[i], 1e-6) end
@@ -1290,7 +1290,7 @@ describe("a text", function()
       local x, _, w = art.object:bounds()
       return x + w
     end
-    local glyphs = celspan.glyphs { "MMMM", font = "../../scripts/type/block.ttf", size = 20 }
+    local glyphs = celspan.glyphs { "MMMM", font = "../../../scripts/type/block.ttf", size = 20 }
     local last = glyphs[#glyphs]
     assert.is_near(0.5 * (last.x + last.advance), width(0.5), 1e-6)
   end)

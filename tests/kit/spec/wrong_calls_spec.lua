@@ -4,7 +4,7 @@ local celspan = require "celspan"
 local present = require "tests.support.present"
 local raised = require "tests.support.raised"
 
-local FONT = "../../scripts/type/block.ttf"
+local FONT = "../../../scripts/type/block.ttf"
 local circle = celspan.circle { centre = { 5, 5 }, radius = 3 }
 local rostrum = celspan.rostrum { celspan.cel { circle } }
 local one = { film = { 9, 9 }, size = { 9, 9 } }

@@ -96,14 +96,10 @@ static double weight_ratio(const cs_bezier *curve) {
   return largest / least;
 }
 
-static celspan_point project(cs_hpoint point) {
-  return (celspan_point){point.x / point.w, point.y / point.w};
-}
-
 /* The end of a stretch, moved into the frame, and not above the previous stretch. */
 static celspan_point joint(const builder *b, const cs_bezier *curve, celspan_point from,
                            celspan_point to) {
-  celspan_point end = project(curve->points[curve->degree]);
+  celspan_point end = cs_hpoint_place(curve->points[curve->degree]);
   return (celspan_point){cs_number_clamp(end.x, b->frame.left, b->frame.right),
                          cs_number_clamp(end.y, from.y, to.y)};
 }
@@ -123,7 +119,7 @@ static celspan_status add_curve(builder *b, const cs_bezier *curve, celspan_poin
 
 static double middle_x(const cs_bezier *curve, cs_bezier *upper, cs_bezier *lower) {
   cs_bezier_split(curve, 0.5, upper, lower);
-  return project(lower->points[0]).x;
+  return cs_hpoint_place(lower->points[0]).x;
 }
 
 /* The mean of three points of a curve. */
@@ -194,8 +190,9 @@ static celspan_status add_across(builder *b, const cs_bezier *curve, double y0, 
     return add_vertical(b, left, y0, y1);
   if (least >= right)
     return add_vertical(b, right, y0, y1);
-  celspan_point from = {cs_number_clamp(project(curve->points[0]).x, left, right), y0};
-  celspan_point to = {cs_number_clamp(project(curve->points[curve->degree]).x, left, right), y1};
+  celspan_point from = {cs_number_clamp(cs_hpoint_place(curve->points[0]).x, left, right), y0};
+  celspan_point to = {cs_number_clamp(cs_hpoint_place(curve->points[curve->degree]).x, left, right),
+                      y1};
   return least >= left && largest <= right ? add_curve(b, curve, from, to, 0)
                                            : add_cut_curve(b, curve, from, to);
 }
@@ -204,7 +201,8 @@ static celspan_status add_across(builder *b, const cs_bezier *curve, double y0, 
  * the bottom: this costs little, and the vertices are the same as in a larger frame. */
 static celspan_status add_falling(builder *b, cs_bezier *curve) {
   const cs_boundary_frame *frame = &b->frame;
-  celspan_point from = project(curve->points[0]), to = project(curve->points[curve->degree]);
+  celspan_point from = cs_hpoint_place(curve->points[0]),
+                to = cs_hpoint_place(curve->points[curve->degree]);
   if (to.y <= frame->top || from.y >= frame->bottom)
     return CELSPAN_OK;
   if (curve->degree == 1)

@@ -4,14 +4,12 @@
 
 /* ---------------------------------------------------------------- reading */
 
-static cs_hpoint plain(celspan_point p) { return (cs_hpoint){p.x, p.y, 1}; }
-
 static bool is_same(celspan_point a, celspan_point b) { return a.x == b.x && a.y == b.y; }
 
 /* p: the current point, and the three of the piece. */
 static celspan_status add_piece(celspan_context *context, cs_outline *outline,
                                 const celspan_point *p) {
-  const cs_hpoint piece[3] = {plain(p[1]), plain(p[2]), plain(p[3])};
+  const cs_hpoint piece[3] = {cs_hpoint_of(p[1]), cs_hpoint_of(p[2]), cs_hpoint_of(p[3])};
   if (is_same(p[0], p[1]) && is_same(p[2], p[3]))
     return cs_outline_line(context, outline, piece[2]);
   return cs_outline_piece(context, outline, 3, piece);
@@ -22,7 +20,7 @@ static celspan_status close_line(celspan_context *context, cs_outline *outline,
   const celspan_point *points = contour->points;
   size_t count = contour->point_count;
   if (count == 1 || !is_same(points[0], points[count - 1]))
-    CS_TRY(cs_outline_line(context, outline, plain(points[0])));
+    CS_TRY(cs_outline_line(context, outline, cs_hpoint_of(points[0])));
   return cs_outline_closed_add(context, closed, outline->contour_count - 1);
 }
 
@@ -31,8 +29,8 @@ static celspan_status add_contour(celspan_context *context, cs_outline *outline,
   bool is_joined = closed && contour->closed;
   if (contour->point_count == 1 && !is_joined)
     return CELSPAN_OK;
-  CS_TRY(closed ? cs_outline_begin(context, outline, plain(contour->points[0]))
-                : cs_outline_move(context, outline, plain(contour->points[0])));
+  CS_TRY(closed ? cs_outline_begin(context, outline, cs_hpoint_of(contour->points[0]))
+                : cs_outline_move(context, outline, cs_hpoint_of(contour->points[0])));
   for (size_t i = 0; i + 1 < contour->point_count; i += 3)
     CS_TRY(add_piece(context, outline, &contour->points[i]));
   return is_joined ? close_line(context, outline, closed, contour) : CELSPAN_OK;

@@ -23,6 +23,11 @@ typedef struct cs_hpoint {
   double x, y, w;
 } cs_hpoint;
 
+static inline celspan_point cs_hpoint_place(cs_hpoint p) {
+  return (celspan_point){p.x / p.w, p.y / p.w};
+}
+static inline cs_hpoint cs_hpoint_of(celspan_point p) { return (cs_hpoint){p.x, p.y, 1}; }
+
 typedef struct cs_outline {
   cs_hpoint *points;
   uint32_t *starts;

@@ -87,21 +87,19 @@ static celspan_status read_flag(reader *r, double *out) {
 
 /* ---------------------------------------------------------------- drawing */
 
-static cs_hpoint plain(celspan_point p) { return (cs_hpoint){p.x, p.y, 1}; }
-
 static celspan_status begin_drawing(reader *r) {
   if (r->is_drawing)
     return CELSPAN_OK;
   r->is_drawing = true;
-  return r->closed ? cs_outline_begin(r->context, r->outline, plain(r->start))
-                   : cs_outline_move(r->context, r->outline, plain(r->start));
+  return r->closed ? cs_outline_begin(r->context, r->outline, cs_hpoint_of(r->start))
+                   : cs_outline_move(r->context, r->outline, cs_hpoint_of(r->start));
 }
 
 /* points: the `degree` points after the pen, the last of which becomes the pen. */
 static celspan_status draw(reader *r, int degree, const celspan_point *points) {
   cs_hpoint piece[3];
   for (int i = 0; i < degree; i++)
-    piece[i] = plain(points[i]);
+    piece[i] = cs_hpoint_of(points[i]);
   CS_TRY(begin_drawing(r));
   CS_TRY(cs_outline_piece(r->context, r->outline, degree, piece));
   r->pen = points[degree - 1];
@@ -186,7 +184,8 @@ static celspan_status draw_arc(reader *r, const double *arguments, celspan_point
     if (i > 0)
       CS_TRY(note_inner(r));
     cs_hpoint piece[2] = {on_arc(&arc, arc.begin + (i + 0.5) * step, weight),
-                          i + 1 == count ? plain(to) : on_arc(&arc, arc.begin + (i + 1) * step, 1)};
+                          i + 1 == count ? cs_hpoint_of(to)
+                                         : on_arc(&arc, arc.begin + (i + 1) * step, 1)};
     CS_TRY(cs_outline_piece(r->context, r->outline, 2, piece));
   }
   r->pen = r->control = to;

@@ -43,6 +43,3 @@ CELSPAN_CHECKED celspan_status cs_lines_end(celspan_context *context, cs_lines *
 
 /* Piece `i`, whole. */
 void cs_lines_load(const cs_lines *lines, size_t i, cs_bezier *out);
-static inline celspan_point cs_lines_point(cs_hpoint point) {
-  return (celspan_point){point.x / point.w, point.y / point.w};
-}

@@ -36,7 +36,7 @@ typedef enum wanted { EVERY, CLOSED, OPEN } wanted;
 
 static celspan_status check_piece(const growing *g, const cs_bezier *piece) {
   for (int i = 0; i <= piece->degree; i++) {
-    celspan_point p = cs_lines_point(piece->points[i]);
+    celspan_point p = cs_hpoint_place(piece->points[i]);
     if (!(piece->points[i].w > 0) || !cs_number_is_sane(p.x) || !cs_number_is_sane(p.y))
       return cs_fail(g->context, CELSPAN_BAD_ARGUMENT,
                      "offset: the object reaches the horizon of its perspective; change it before "

@@ -18,7 +18,7 @@ static celspan_status keep_texture(celspan_context *context, const cs_primitive_
 
 static celspan_status check_numbers(const cs_operation *operation, const cs_outline *outline) {
   for (size_t i = 0; i < outline->point_count; i++) {
-    celspan_point p = cs_lines_point(outline->points[i]);
+    celspan_point p = cs_hpoint_place(outline->points[i]);
     if (!cs_number_is_sane(p.x) || !cs_number_is_sane(p.y))
       return cs_fail(operation->context, CELSPAN_BAD_ARGUMENT,
                      "%s: it would move a point beyond 1e12 units", operation->noun);

@@ -33,14 +33,14 @@ static double arm_of(const cs_bezier *piece) {
 /* The piece as a cubic. Pieces of higher degrees keep their ends and their directions there. */
 static void read_cubic(const cs_bezier *piece, celspan_point cubic[4]) {
   int degree = piece->degree;
-  celspan_point a = cs_lines_point(piece->points[0]), b = cs_lines_point(piece->points[degree]);
+  celspan_point a = cs_hpoint_place(piece->points[0]), b = cs_hpoint_place(piece->points[degree]);
   cubic[0] = cubic[1] = a;
   cubic[2] = cubic[3] = b;
   if (degree < 2)
     return;
   double arm = degree == 2 ? arm_of(piece) : degree / 3.0;
-  cubic[1] = between(a, cs_lines_point(piece->points[1]), arm);
-  cubic[2] = between(b, cs_lines_point(piece->points[degree - 1]), arm);
+  cubic[1] = between(a, cs_hpoint_place(piece->points[1]), arm);
+  cubic[2] = between(b, cs_hpoint_place(piece->points[degree - 1]), arm);
 }
 
 /* The mean of the joints. */
@@ -52,15 +52,13 @@ static celspan_point middle_of(const cs_lines *lines, const cs_lines_contour *co
     cs_lines_load(lines, i, &piece);
     bool is_end = i + 1 == contour->end && !contour->is_closed;
     for (int k = 0; k <= (is_end ? piece.degree : 0); k += piece.degree) {
-      celspan_point p = cs_lines_point(piece.points[k]);
+      celspan_point p = cs_hpoint_place(piece.points[k]);
       sum = (celspan_point){sum.x + p.x, sum.y + p.y};
       count++;
     }
   }
   return (celspan_point){sum.x / count, sum.y / count};
 }
-
-static cs_hpoint plain(celspan_point p) { return (cs_hpoint){p.x, p.y, 1}; }
 
 static celspan_status change_contour(const pucker *p, const cs_lines *lines,
                                      const cs_lines_contour *contour, cs_lines *to) {
@@ -73,7 +71,8 @@ static celspan_status change_contour(const pucker *p, const cs_lines *lines,
     read_cubic(&piece, cubic);
     cs_bezier moved = {.degree = 3};
     for (int k = 0; k < 4; k++)
-      moved.points[k] = plain(between(cubic[k], middle, k == 0 || k == 3 ? p->amount : -p->amount));
+      moved.points[k] =
+          cs_hpoint_of(between(cubic[k], middle, k == 0 || k == 3 ? p->amount : -p->amount));
     if (i == contour->begin)
       CS_TRY(cs_lines_begin(context, to, moved.points[0]));
     CS_TRY(cs_lines_add(context, to, &moved));

@@ -29,8 +29,8 @@ typedef struct piece {
 
 static void load(const cs_lines *lines, size_t i, piece *out) {
   cs_lines_load(lines, i, &out->curve);
-  out->a = cs_lines_point(out->curve.points[0]);
-  out->b = cs_lines_point(out->curve.points[out->curve.degree]);
+  out->a = cs_hpoint_place(out->curve.points[0]);
+  out->b = cs_hpoint_place(out->curve.points[out->curve.degree]);
   out->length =
       out->curve.degree == 1 ? cs_number_length(out->b.x - out->a.x, out->b.y - out->a.y) : 0;
 }

@@ -76,7 +76,7 @@ static double arm(const maker *p, double side) { return side / (2 * ((double)p->
 
 static celspan_status put_ridges(maker *p, const cs_bezier *piece) {
   double side =
-      distance(cs_lines_point(piece->points[0]), cs_lines_point(piece->points[piece->degree]));
+      distance(cs_hpoint_place(piece->points[0]), cs_hpoint_place(piece->points[piece->degree]));
   for (size_t i = 1; i <= p->z->ridges; i++) {
     celspan_point point, direction;
     cs_curve_line_at(piece, (double)i / (double)(p->z->ridges + 1), &point, &direction);
@@ -91,7 +91,7 @@ static celspan_point joint(const cs_lines *lines, const cs_lines_contour *contou
   size_t count = contour->end - contour->begin;
   bool is_last = i == contour->end && !contour->is_closed;
   cs_lines_load(lines, is_last ? i - 1 : contour->begin + (i - contour->begin) % count, &piece);
-  return cs_lines_point(piece.points[is_last ? piece.degree : 0]);
+  return cs_hpoint_place(piece.points[is_last ? piece.degree : 0]);
 }
 
 static celspan_status put_joint(maker *p, const cs_lines *lines, const cs_lines_contour *contour,

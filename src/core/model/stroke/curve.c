@@ -168,28 +168,26 @@ cs_curve_place cs_curve_at(const cs_curve *curve, double t) {
   return place;
 }
 
-static celspan_point project(cs_hpoint p) { return (celspan_point){p.x / p.w, p.y / p.w}; }
-
 double cs_curve_extent(const cs_bezier *line) {
-  celspan_point first = project(line->points[0]);
+  celspan_point first = cs_hpoint_place(line->points[0]);
   double extent = 0;
   for (int i = 1; i <= line->degree; i++) {
-    celspan_point p = project(line->points[i]);
+    celspan_point p = cs_hpoint_place(line->points[i]);
     extent = fmax(extent, fmax(fabs(p.x - first.x), fabs(p.y - first.y)));
   }
   return extent;
 }
 
 bool cs_curve_is_point(const cs_bezier *line) {
-  celspan_point first = project(line->points[0]);
+  celspan_point first = cs_hpoint_place(line->points[0]);
   return !(cs_curve_extent(line) > POINT * (fabs(first.x) + fabs(first.y)));
 }
 
 celspan_point cs_curve_departure(const cs_bezier *line) {
   double extent = cs_curve_extent(line);
-  celspan_point first = project(line->points[0]);
+  celspan_point first = cs_hpoint_place(line->points[0]);
   for (int k = 1; k <= line->degree; k++) {
-    celspan_point p = project(line->points[k]);
+    celspan_point p = cs_hpoint_place(line->points[k]);
     double x = p.x - first.x, y = p.y - first.y, length = sqrt(x * x + y * y);
     if (length > 1e-9 * extent)
       return (celspan_point){x / length, y / length};
@@ -286,7 +284,7 @@ double cs_curve_length(const cs_bezier *line, double begin, double end) {
     return 0;
   double polygon = 0, farthest = 0; /* farthest: the greatest distance from an axis */
   for (int i = 0; i < line->degree; i++) {
-    celspan_point a = project(line->points[i]), b = project(line->points[i + 1]);
+    celspan_point a = cs_hpoint_place(line->points[i]), b = cs_hpoint_place(line->points[i + 1]);
     polygon += sqrt((b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y));
     farthest = fmax(farthest, fmax(fabs(a.x), fabs(a.y)));
   }

@@ -34,8 +34,6 @@ typedef struct fan {
   cs_spoke_motion motions[SPOKES];
 } fan;
 
-static celspan_point project(cs_hpoint p) { return (celspan_point){p.x / p.w, p.y / p.w}; }
-
 /* A part of a curve that is followed. */
 typedef struct stretch {
   const cs_curve *whole;
@@ -79,11 +77,11 @@ static int way_of(const fan *f) {
 
 /* Whether all sides of the polygon go roughly along its chord; then the line does so, too. */
 static bool goes_along(const cs_bezier *line) {
-  celspan_point from = project(line->points[0]), chord;
-  chord = cs_spoke_away(from, project(line->points[line->degree]));
+  celspan_point from = cs_hpoint_place(line->points[0]), chord;
+  chord = cs_spoke_away(from, cs_hpoint_place(line->points[line->degree]));
   double length = sqrt(cs_spoke_dot(chord, chord));
   for (int i = 1; i <= line->degree; i++) {
-    celspan_point to = project(line->points[i]), way = cs_spoke_away(from, to);
+    celspan_point to = cs_hpoint_place(line->points[i]), way = cs_spoke_away(from, to);
     if (cs_spoke_dot(way, chord) < CONE * length * sqrt(cs_spoke_dot(way, way)))
       return false;
     from = to;
@@ -264,7 +262,8 @@ static bool is_point(const cs_side *side, const cs_curve *curve, const cs_spoke 
   if (cs_stroke_view_error(side->view, wider, a->centre) > allowed)
     return false;
   for (int i = 1; i <= curve->line.degree; i++)
-    if (cs_stroke_view_error(side->view, project(curve->line.points[i]), a->centre) > allowed)
+    if (cs_stroke_view_error(side->view, cs_hpoint_place(curve->line.points[i]), a->centre) >
+        allowed)
       return false;
   return true;
 }

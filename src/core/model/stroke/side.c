@@ -17,8 +17,6 @@ void cs_side_finish(cs_side *side) {
   cs_outline_finish(&side->folds, side->context->memory);
 }
 
-static cs_hpoint plain(celspan_point p) { return (cs_hpoint){p.x, p.y, 1}; }
-
 static bool are_same(celspan_point a, celspan_point b) { return a.x == b.x && a.y == b.y; }
 
 /* ---------------------------------------------------------------- lines and folds */
@@ -26,15 +24,15 @@ static bool are_same(celspan_point a, celspan_point b) { return a.x == b.x && a.
 static celspan_status draw_line(cs_side *side, celspan_point to) {
   if (side->is_begun && are_same(side->at, to))
     return CELSPAN_OK;
-  CS_TRY(side->is_begun ? cs_outline_line(side->context, side->outline, plain(to))
-                        : cs_outline_move(side->context, side->outline, plain(to)));
+  CS_TRY(side->is_begun ? cs_outline_line(side->context, side->outline, cs_hpoint_of(to))
+                        : cs_outline_move(side->context, side->outline, cs_hpoint_of(to)));
   side->is_begun = true;
   side->at = to;
   return CELSPAN_OK;
 }
 
 static celspan_status draw_curve(cs_side *side, const celspan_point p[4]) {
-  const cs_hpoint points[3] = {plain(p[1]), plain(p[2]), plain(p[3])};
+  const cs_hpoint points[3] = {cs_hpoint_of(p[1]), cs_hpoint_of(p[2]), cs_hpoint_of(p[3])};
   side->at = p[3];
   return cs_outline_piece(side->context, side->outline, 3, points);
 }
@@ -73,7 +71,7 @@ static celspan_status end_fold(cs_side *side) {
   if (!has_fold(side))
     return CELSPAN_OK;
   CS_TRY(draw_line(side, last_tip(side)));
-  CS_TRY(cs_outline_move(side->context, &side->folds, plain(last_tip(side))));
+  CS_TRY(cs_outline_move(side->context, &side->folds, cs_hpoint_of(last_tip(side))));
   CS_TRY(append_pieces(side->context, &side->folds, &side->tips, 0, side->tips.piece_count, true));
   CS_TRY(append_pieces(side->context, &side->folds, side->outline, side->fold_begin,
                        side->outline->piece_count, false));
@@ -84,12 +82,12 @@ static celspan_status end_fold(cs_side *side) {
 static celspan_status begin_fold(cs_side *side, celspan_point tip) {
   CS_TRY(draw_line(side, tip));
   side->fold_begin = side->outline->piece_count;
-  return cs_outline_begin(side->context, &side->tips, plain(tip));
+  return cs_outline_begin(side->context, &side->tips, cs_hpoint_of(tip));
 }
 
 celspan_status cs_side_fold(cs_side *side, const celspan_point tips[4],
                             const celspan_point pivots[4]) {
-  const cs_hpoint back[3] = {plain(tips[1]), plain(tips[2]), plain(tips[3])};
+  const cs_hpoint back[3] = {cs_hpoint_of(tips[1]), cs_hpoint_of(tips[2]), cs_hpoint_of(tips[3])};
   double allowed = SAME * cs_side_allowance(side, pivots, 4, 0);
   bool goes_on = has_fold(side) && are_same(last_tip(side), tips[0]);
   if (!goes_on) {

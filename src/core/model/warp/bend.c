@@ -30,10 +30,6 @@ typedef struct stretch {
   celspan_point a, b;
 } stretch;
 
-static celspan_point projected(cs_hpoint point) {
-  return (celspan_point){point.x / point.w, point.y / point.w};
-}
-
 /* The point of a piece at a parameter, by de Casteljau; equal numbers stay equal. */
 static celspan_point polynomial_at(const cs_bezier *piece, double t) {
   double x[CS_BEZIER_DEGREE + 1], y[CS_BEZIER_DEGREE + 1];
@@ -57,12 +53,12 @@ static celspan_point rational_at(const cs_bezier *piece, double t) {
     for (int i = 0; i < level; i++)
       p[i] = (cs_hpoint){p[i].x + t * (p[i + 1].x - p[i].x), p[i].y + t * (p[i + 1].y - p[i].y),
                          p[i].w + t * (p[i + 1].w - p[i].w)};
-  return projected(p[0]);
+  return cs_hpoint_place(p[0]);
 }
 
 static celspan_point point_at(const bender *b, double t) {
   if (t == 1) /* the beginning of the next piece, to the bit */
-    return projected(b->piece.points[b->piece.degree]);
+    return cs_hpoint_place(b->piece.points[b->piece.degree]);
   return b->is_polynomial ? polynomial_at(&b->piece, t) : rational_at(&b->piece, t);
 }
 
@@ -192,7 +188,8 @@ static celspan_status load(bender *b, const cs_outline *outline, size_t i,
     if (!(b->piece.points[k].w > 0))
       return cs_warp_fail_at_horizon(b->map);
     if (k > 0)
-      length += distance(projected(b->piece.points[k - 1]), projected(b->piece.points[k]));
+      length +=
+          distance(cs_hpoint_place(b->piece.points[k - 1]), cs_hpoint_place(b->piece.points[k]));
   }
   b->forced = 0;
   for (; b->forced < FORCED && length > LONG * b->map->extent; length /= 2)

@@ -32,6 +32,8 @@ struct cs_file {
 
 /* bytes that are hashed at a time; existing records depend on this number */
 enum { CHUNK = 1 << 16 };
+/* bytes that are read again at a time */
+enum { AGAIN = 3 << 14 };
 
 bool cs_file_contents_read(int descriptor, cs_file_contents *out) {
   unsigned char chunk[CHUNK];
@@ -310,6 +312,23 @@ celspan_status cs_file_temporary(cs_file *file, celspan_context *context, const 
   CS_TRY(check_usable(file, context));
   CS_TRY(flush(file, context));
   *name = file->temporary;
+  return CELSPAN_OK;
+}
+
+celspan_status cs_file_again(cs_file *file, celspan_context *context,
+                             celspan_status (*take)(void *user, const void *bytes, size_t size),
+                             void *user) {
+  unsigned char part[AGAIN];
+  CS_TRY(check_usable(file, context));
+  CS_TRY(flush(file, context));
+  for (uint64_t at = 0; at < file->flushed; at += AGAIN) {
+    uint64_t left = file->flushed - at;
+    size_t size = left < AGAIN ? (size_t)left : AGAIN;
+    errno = EIO; /* where the file has become shorter */
+    if (cs_open_read_at(file->descriptor, part, size, (off_t)at) != (ssize_t)size)
+      return fail(file, context, "cannot read its temporary file back");
+    CS_TRY(take(user, part, size));
+  }
   return CELSPAN_OK;
 }
 

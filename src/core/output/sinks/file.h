@@ -66,6 +66,12 @@ uint64_t cs_file_size(const cs_file *file);
  * borrowed until the file ends. */
 CELSPAN_CHECKED celspan_status cs_file_temporary(cs_file *file, celspan_context *context,
                                                  const char **name);
+/* Gives all bytes so far to `take`, in parts whose size is a multiple of 3, except the last one's.
+ * Errors: OUTPUT, and those of `take`, which end it. */
+CELSPAN_CHECKED celspan_status cs_file_again(cs_file *file, celspan_context *context,
+                                             celspan_status (*take)(void *user, const void *bytes,
+                                                                    size_t size),
+                                             void *user);
 /* Takes the output of another program, written under the temporary name, as the file's contents. */
 CELSPAN_CHECKED celspan_status cs_file_adopt(cs_file *file, celspan_context *context);
 /* All three functions end the file, whatever they return. discard ignores NULL. */

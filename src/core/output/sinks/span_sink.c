@@ -45,10 +45,6 @@ static bool put_bytes(void *user, const void *bytes, size_t size) {
   return cs_file_write(sink->file, sink->context, bytes, size) == CELSPAN_OK;
 }
 
-static void *resize(void *user, void *block, size_t old_size, size_t new_size) {
-  return cs_mem_resize(user, block, old_size, new_size);
-}
-
 /* A write that failed has set the error already. */
 static celspan_status report(const span_sink *sink, celspan_context *context,
                              spanfile_status status) {
@@ -122,7 +118,7 @@ static celspan_status begin(void *user, celspan_context *context, int32_t width,
       .format = sink->coding.depth == CELSPAN_DEPTH_HALF ? SPANFILE_HALF : SPANFILE_SRGB8,
       .write = put_bytes,
       .user = sink,
-      .resize = resize,
+      .resize = cs_mem_resize_of,
       .resize_user = context->memory};
   CS_TRY(cs_strip_check(context, sink->path, sink->strip, height));
   CS_TRY(cs_file_create(context, NULL, sink->path, &sink->file));

@@ -32,15 +32,15 @@ typedef struct cs_page {
 
 /* Lists of words have a space before and after each. */
 typedef struct cs_output {
-  const char *kind;   /* the kind of what it is, in the plural */
+  const char *kind;   /* of what it is, in the plural */
   const char *names;  /* the formats: endings of names; NULL: those of the picture module */
   const char *makers; /* the verbs that make it; NULL: all that write pictures */
   const char *takes;  /* the options of outputs that it takes */
   const char *depths, *colours, *alphas; /* the values that it takes; NULL: any */
   cs_holds holds;
-  bool codes_stills;      /* one frame is coded as a film is, too, where it could be a picture */
-  bool is_apart;          /* only with --layers or --cryptomatte; otherwise it is another row */
-  cs_apart_format layers; /* the layers of such a row */
+  bool codes_stills; /* one frame is coded as a film is, too, where it could be a picture */
+  /* Only with --layers or --cryptomatte; NULL: without. */
+  const cs_apart_format *layers;
   celspan_status (*write)(celspan_context *context, const cs_request *request,
                           const struct cs_output *output, const cs_page *page);
   const struct cs_outlet *outlet;

@@ -37,6 +37,19 @@ static cs_exit refuse_picture(celspan_context *context, const cs_request *reques
 #define DRAW " render convert "
 #define FILM " render farm convert "
 
+#define VIDEOS(list, more, coded)                                                                  \
+  {                                                                                                \
+    .kind = "videos", .names = list, .makers = FILM, .takes = VIDEO more, .depths = DIGITS,        \
+    .colours = SHOWN, .holds = CS_HOLDS_FILM, .codes_stills = coded, .outlet = &cs_outlet_video,   \
+    .refuse = cs_video_target_refuse                                                               \
+  }
+#define PAINTINGS(list, format)                                                                    \
+  {                                                                                                \
+    .kind = "files with layers", .names = list, .makers = RENDER,                                  \
+    .takes = VIEW FILES "--depth --colour --alpha --no-dither --layers ", .depths = DIGITS,        \
+    .colours = " srgb ", .alphas = " straight ", .layers = format, .write = cs_write_layers        \
+  }
+
 const cs_output cs_outputs[] = {
     {.kind = "raw frames",
      .names = " - ",
@@ -47,72 +60,26 @@ const cs_output cs_outputs[] = {
      .names = NO_FILE,
      .makers = " render ",
      .takes = VIEW COLOURS DITHERS "--depth --hash --strip --format --task --keep-going "},
-    {.kind = "videos",
-     .names = " mp4 mkv mov webm ",
-     .makers = FILM,
-     .takes = VIDEO,
-     .depths = DIGITS,
-     .colours = SHOWN,
-     .holds = CS_HOLDS_FILM,
-     .codes_stills = true,
-     .outlet = &cs_outlet_video,
-     .refuse = cs_video_target_refuse},
-    {.kind = "videos",
-     .names = " gif webp apng ",
-     .makers = FILM,
-     .takes = VIDEO "--loop ",
-     .depths = DIGITS,
-     .colours = SHOWN,
-     .holds = CS_HOLDS_FILM,
-     .outlet = &cs_outlet_video,
-     .refuse = cs_video_target_refuse},
-    {.kind = "videos",
-     .names = " avif ",
-     .makers = FILM,
-     .takes = VIDEO "--loop ",
-     .depths = DIGITS,
-     .colours = SHOWN,
-     .holds = CS_HOLDS_FILM,
-     .codes_stills = true,
-     .outlet = &cs_outlet_video,
-     .refuse = cs_video_target_refuse},
+    VIDEOS(" mp4 mkv mov webm ", "", true),
+    VIDEOS(" gif webp apng ", "--loop ", false),
+    VIDEOS(" avif ", "--loop ", true),
     {.kind = "files with layers",
      .names = " exr openexr ",
      .makers = RENDER,
-     .is_apart = true,
      .takes = VIEW FILES DITHERS "--depth --colour --alpha --layers --cryptomatte ",
      .colours = " linear ",
-     .layers = CS_APART_EXR,
+     .layers = &cs_apart_exr,
      .write = cs_write_layers,
      .refuse = refuse_picture},
     {.kind = "files with layers",
      .names = " png ",
      .makers = RENDER,
-     .is_apart = true,
      .takes = VIEW FILES COLOURS DITHERS "--depth --layers ",
-     .layers = CS_APART_PNG,
+     .layers = &cs_apart_png,
      .write = cs_write_layers,
      .refuse = refuse_picture},
-    {.kind = "files with layers",
-     .names = " ora ",
-     .makers = RENDER,
-     .is_apart = true,
-     .takes = VIEW FILES "--depth --colour --alpha --no-dither --layers ",
-     .depths = DIGITS,
-     .colours = " srgb ",
-     .alphas = " straight ",
-     .layers = CS_APART_ORA,
-     .write = cs_write_layers},
-    {.kind = "files with layers",
-     .names = " psd ",
-     .makers = RENDER,
-     .is_apart = true,
-     .takes = VIEW FILES "--depth --colour --alpha --no-dither --layers ",
-     .depths = DIGITS,
-     .colours = " srgb ",
-     .alphas = " straight ",
-     .layers = CS_APART_PSD,
-     .write = cs_write_layers},
+    PAINTINGS(" ora ", &cs_apart_ora),
+    PAINTINGS(" psd ", &cs_apart_psd),
     {.kind = "pictures",
      .names = " png tga targa span ",
      .takes = VIEW COLOURS DITHERS FILES "--depth --hash --strip ",
@@ -177,7 +144,7 @@ static bool is_picture(const char *name) {
 static bool is_made(const cs_output *output, const cs_request *request) {
   bool is_apart = cs_request_has(request, "--layers") || cs_request_has(request, "--cryptomatte");
   return (!output->makers || cs_output_lists(output->makers, request->verb->name)) &&
-         (is_apart || !output->is_apart);
+         (is_apart || !output->layers);
 }
 
 /* Whether a name that a picture has, too, is of a film. */
@@ -290,7 +257,7 @@ static const char *subject_of(const comparison *c, char out[40]) {
                      : strcmp(c->path, c->name) == 0 ? "--hash alone"
                      : c->name[0]                    ? c->name
                                                      : "a picture";
-  snprintf(out, 40, "%s%s", name, c->output->is_apart ? " with layers" : "");
+  snprintf(out, 40, "%s%s", name, c->output->layers ? " with layers" : "");
   return out;
 }
 
@@ -349,7 +316,7 @@ static cs_exit refuse_name(const cs_request *request, const char *path) {
   list_rows((wanted){.verb = verb}, &others);
   while (other->kind && !is_named(other, name))
     other++;
-  if (other->kind && other->is_apart)
+  if (other->kind && other->layers)
     return cs_report_usage("%s: the format \"%s\" cannot be written without layers: give --layers "
                            "cels to 'celspan render'",
                            path, name);

@@ -8,21 +8,10 @@ static const double usual_scale = 2;
 
 celspan_status cs_write_layers(celspan_context *context, const cs_request *request,
                                const cs_output *output, const cs_page *page) {
-  cs_apart_contents contents = {.format = output->layers,
-                                .has_layers = cs_request_has(request, "--layers"),
+  cs_apart_contents contents = {.has_layers = cs_request_has(request, "--layers"),
                                 .place = cs_sequence_place(cs_request_text(request, "-o"))};
   cs_request_read(request, "--cryptomatte", &contents.mattes);
-  switch (output->layers) {
-  case CS_APART_PNG:
-    return cs_apart_write_png(context, contents, page->frame, page->path, page->file);
-  case CS_APART_ORA:
-    return cs_apart_write_ora(context, page->frame, page->path, page->file);
-  case CS_APART_PSD:
-    return cs_apart_write_psd(context, page->frame, page->path, page->file);
-  case CS_APART_EXR:
-    break;
-  }
-  return cs_apart_write_exr(context, contents, page->frame, page->path, page->file);
+  return cs_apart_write(context, output->layers, contents, page->frame, page->path, page->file);
 }
 
 /* ---------------------------------------------------------------- drawings */

@@ -17,6 +17,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "common/bytes.h"
 #include "inside/context.h"
 #include "inside/module.h"
 #include "lua/bind/userdata.h"
@@ -106,8 +107,7 @@ static int abandon(lua_State *L) {
 }
 
 static size_t size_of(const renderer *r) {
-  const unsigned char *head = (const unsigned char *)r->bytes;
-  return HEAD + ((size_t)head[0] << 24 | (size_t)head[1] << 16 | (size_t)head[2] << 8 | head[3]);
+  return HEAD + (size_t)cs_bytes_big32((const unsigned char *)r->bytes);
 }
 
 /* The number of missing bytes; MESSAGE_MOST: the message is too long. */

@@ -71,11 +71,7 @@ static void push_light(lua_State *L, const cs_light *light) {
     lua_pushliteral(L, "texture");
     return;
   }
-  lua_createtable(L, 3, 0);
-  for (int i = 0; i < 3; i++) {
-    lua_pushnumber(L, channels[i]);
-    lua_rawseti(L, -2, i + 1);
-  }
+  cs_push_numbers(L, channels, 3);
 }
 
 /* light: the front light of a cel. object: with its paint at the point. The other one is NULL. */

@@ -209,38 +209,7 @@ function program.run_all(next_item, workers, start, finish)
   return finished, is_well
 end
 
-local DIGITS = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/"
-local GROUPS = 1 << 16 -- groups of three bytes that are coded at a time
-
---- All 4096 pairs of digits, indexed by 12 bits.
-local function make_pairs()
-  local pairs_of = {}
-  for i = 0, 4095 do
-    local high, low = i >> 6, i & 63
-    pairs_of[i] = DIGITS:sub(high + 1, high + 1) .. DIGITS:sub(low + 1, low + 1)
-  end
-  return pairs_of
-end
-
 --- Bytes as digits of base64 (RFC 4648).
 function program.base64(bytes)
-  local pairs_of, parts, digits = make_pairs(), {}, {}
-  local rest = #bytes % 3
-  for start = 1, #bytes - rest, 3 * GROUPS do
-    local stop = math.min(start + 3 * GROUPS - 1, #bytes - rest)
-    for i = start, stop, 3 do
-      local a, b, c = bytes:byte(i, i + 2)
-      local bits = a << 16 | b << 8 | c
-      digits[(i - start) // 3 + 1] = pairs_of[bits >> 12] .. pairs_of[bits & 4095]
-    end
-    parts[#parts + 1] = table.concat(digits, "", 1, (stop - start + 1) // 3)
-  end
-  if rest > 0 then
-    local a, b = bytes:byte(-rest, -1)
-    if rest == 1 then a, b = bytes:byte(-1), 0 end
-    local bits = a << 16 | b << 8
-    parts[#parts + 1] = (pairs_of[bits >> 12] .. pairs_of[bits & 4095]):sub(1, rest + 1)
-      .. ("="):rep(3 - rest)
-  end
-  return table.concat(parts)
+  return require("celspan.core").data(bytes):sub(#"data:;base64," + 1)
 end

@@ -15,6 +15,19 @@ void cs_put_number(lua_State *L, const char *name, lua_Number number) {
   lua_setfield(L, -2, name);
 }
 
+void cs_push_numbers(lua_State *L, const double *numbers, size_t count) {
+  lua_createtable(L, (int)count, 0);
+  for (size_t i = 0; i < count; i++) {
+    lua_pushnumber(L, numbers[i]);
+    lua_rawseti(L, -2, (lua_Integer)i + 1);
+  }
+}
+
+void cs_put_numbers(lua_State *L, const char *name, const double *numbers, size_t count) {
+  cs_push_numbers(L, numbers, count);
+  lua_setfield(L, -2, name);
+}
+
 void cs_put_pair(lua_State *L, const char *name, lua_Integer first, lua_Integer second) {
   lua_createtable(L, 2, 0);
   lua_pushinteger(L, first);

@@ -40,11 +40,11 @@ static int release(lua_State *L) {
 
 /* ---------------------------------------------------------------- contours */
 
-/* A contour that grows: the list on top of the stack. */
+/* The contour that is on top of the stack. */
 typedef struct contour {
   lua_State *L;
   lua_Integer count;
-  celspan_point at;
+  celspan_point first, at;
 } contour;
 
 static void add_point(contour *c, celspan_point point) {
@@ -55,71 +55,42 @@ static void add_point(contour *c, celspan_point point) {
   c->at = point;
 }
 
-static void begin(contour *c, lua_State *L, celspan_point point) {
-  *c = (contour){.L = L};
-  lua_newtable(L);
-  add_point(c, point);
-}
-
-static void add_line(contour *c, celspan_point to) {
-  const celspan_point from = c->at;
-  if (from.x == to.x && from.y == to.y)
-    return;
-  add_point(c, from);
-  add_point(c, to);
+static void move(void *user, celspan_point to) {
+  contour *c = user;
+  *c = (contour){.L = c->L, .first = to};
+  lua_newtable(c->L);
   add_point(c, to);
 }
 
-static void add_arc(contour *c, const cs_parcels *parcels, cs_parcel_walk walk) {
-  const cs_parcel_arc *arc = &parcels->arcs[walk.arc];
-  for (size_t i = 0; i < arc->curve_count; i++) {
-    const cs_parcel_curve *curve =
-        &parcels->curves[arc->curve + (walk.is_up ? arc->curve_count - 1 - i : i)];
-    if (curve->is_line)
-      add_line(c, curve->points[walk.is_up ? 0 : 3]);
-    for (int k = 1; !curve->is_line && k <= 3; k++)
-      add_point(c, curve->points[walk.is_up ? 3 - k : k]);
-  }
+static void curve(void *user, const celspan_point points[3]) {
+  for (int k = 0; k < 3; k++)
+    add_point(user, points[k]);
 }
 
-static void push_loop(lua_State *L, const cs_parcels *parcels, const cs_parcel_loop *loop) {
-  const cs_parcel_walk *walks = &parcels->walks[loop->walk];
-  const celspan_point first = cs_parcel_begin(parcels, walks[0]);
-  contour c;
-  begin(&c, L, first);
-  for (size_t k = 0; k < loop->walk_count; k++) {
-    add_line(&c, cs_parcel_begin(parcels, walks[k]));
-    add_arc(&c, parcels, walks[k]);
-  }
-  add_line(&c, first);
+static void line(void *user, celspan_point to) {
+  const celspan_point from = ((contour *)user)->at;
+  if (from.x != to.x || from.y != to.y)
+    curve(user, (const celspan_point[3]){from, to, to});
 }
+
+static void close_path(void *user) { line(user, ((contour *)user)->first); }
+
+/* Pushes a contour for each path. */
+#define STYLUS(L) ((const cs_parcel_stylus){&(contour){.L = L}, move, line, curve, close_path})
 
 /* ---------------------------------------------------------------- fills */
 
-static void put_numbers(lua_State *L, const char *name, const double *numbers, int count) {
-  lua_createtable(L, count, 0);
-  for (int i = 0; i < count; i++) {
-    lua_pushnumber(L, numbers[i]);
-    lua_rawseti(L, -2, i + 1);
-  }
-  lua_setfield(L, -2, name);
-}
-
 static void add_stop(lua_State *L, size_t i, double at, const unsigned char code[4]) {
-  lua_createtable(L, 5, 0);
-  lua_pushnumber(L, at);
-  lua_rawseti(L, -2, 1);
-  for (int k = 0; k < 4; k++) {
-    lua_pushnumber(L, code[k] / 255.0);
-    lua_rawseti(L, -2, k + 2);
-  }
+  cs_push_numbers(
+      L, (const double[]){at, code[0] / 255.0, code[1] / 255.0, code[2] / 255.0, code[3] / 255.0},
+      5);
   lua_rawseti(L, -2, (lua_Integer)i + 1);
 }
 
 /* A gradient that is not round has a map of its own, from its units. */
 static void put_radial(lua_State *L, const cs_fill *fill) {
-  put_numbers(L, "points", (const double[]){fill->centre, 0, 0, 0}, 4);
-  put_numbers(L, "map", fill->matrix, 6);
+  cs_put_numbers(L, "points", (const double[]){fill->centre, 0, 0, 0}, 4);
+  cs_put_numbers(L, "map", fill->matrix, 6);
   cs_put_number(L, "radius", fill->radius);
 }
 
@@ -135,8 +106,8 @@ static void put_fill(lua_State *L, const cs_parcels *parcels, const cs_fill *fil
     add_stop(L, i, parcels->stops[fill->stop + i].at, parcels->stops[fill->stop + i].code);
   lua_setfield(L, -2, "stops");
   if (is_linear)
-    put_numbers(L, "points", (const double[]){fill->from.x, fill->from.y, fill->to.x, fill->to.y},
-                4);
+    cs_put_numbers(L, "points",
+                   (const double[]){fill->from.x, fill->from.y, fill->to.x, fill->to.y}, 4);
   else if (!is_flat)
     put_radial(L, fill);
   lua_setfield(L, -2, "fill");
@@ -163,21 +134,10 @@ static void push_parcel(lua_State *L, const cs_parcels *parcels, const cs_fill *
   put_fill(L, parcels, fill);
   lua_createtable(L, (int)fill->loop_count, 0);
   for (size_t i = 0; i < fill->loop_count; i++) {
-    push_loop(L, parcels, &parcels->loops[fill->loop + i]);
+    cs_parcel_draw_loop(parcels, &parcels->loops[fill->loop + i], &STYLUS(L));
     lua_rawseti(L, -2, (lua_Integer)i + 1);
   }
   lua_setfield(L, -2, "contours");
-}
-
-/* Pushes a part of a border. */
-static void push_line(lua_State *L, const cs_parcels *parcels, const cs_under_line *line) {
-  const cs_parcel_walk walk = {line->arc, false};
-  contour c;
-  begin(&c, L, line->is_flat ? line->from : cs_parcel_begin(parcels, walk));
-  if (line->is_flat)
-    add_line(&c, line->to);
-  else
-    add_arc(&c, parcels, walk);
 }
 
 /* The lines under one fill; *at: of the first of them, and then of the next fill. */
@@ -189,7 +149,7 @@ static void push_lines(lua_State *L, const held *h, size_t *at) {
   put_fill(L, &h->parcels, &h->parcels.fills[h->under.order[rank]]);
   lua_newtable(L);
   for (; *at < h->under.line_count && lines[*at].rank == rank; ++*at) {
-    push_line(L, &h->parcels, &lines[*at]);
+    cs_under_draw(&h->parcels, &lines[*at], &STYLUS(L));
     lua_rawseti(L, -2, ++count);
   }
   lua_setfield(L, -2, "contours");

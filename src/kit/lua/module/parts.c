@@ -82,12 +82,7 @@ static void set_place(list *to, cs_mark mark, double fade, bool is_there, const 
   if (!is_there)
     return;
   const double sides[4] = {box->x, box->y, box->width, box->height};
-  lua_createtable(L, 4, 0);
-  for (int i = 0; i < 4; i++) {
-    lua_pushnumber(L, sides[i]);
-    lua_rawseti(L, -2, i + 1);
-  }
-  lua_setfield(L, -2, "box");
+  cs_put_numbers(L, "box", sides, 4);
 }
 
 /* A rostrum with only this object. */

@@ -9,6 +9,7 @@
 #include "lua/bind/form.h"
 #include "lua/bind/host.h"
 #include "lua/bind/named.h"
+#include "lua/bind/put.h"
 #include "lua/bind/userdata.h"
 #include "lua/module/core.h"
 
@@ -62,21 +63,13 @@ static celspan_light_field field_at(lua_State *L, int index) {
   return field;
 }
 
-static void push_numbers(lua_State *L, const double *numbers, int count) {
-  lua_createtable(L, count, 1);
-  for (int i = 0; i < count; i++) {
-    lua_pushnumber(L, numbers[i]);
-    lua_rawseti(L, -2, i + 1);
-  }
-}
-
 static void push_field(lua_State *L, const celspan_light_field *field, bool is_uneven) {
-  push_numbers(L, field->colour, 3);
+  cs_push_numbers(L, field->colour, 3);
   if (!is_uneven)
     return;
   lua_createtable(L, 3, 0);
   for (int c = 0; c < 3; c++) {
-    push_numbers(L, field->terms[c], CELSPAN_LIGHT_FIELD_TERMS);
+    cs_push_numbers(L, field->terms[c], CELSPAN_LIGHT_FIELD_TERMS);
     lua_rawseti(L, -2, c + 1);
   }
   lua_setfield(L, -2, "terms");

@@ -88,13 +88,8 @@ static void set_number(lua_State *L, const char *name, double number) {
 static void push_points(lua_State *L, const celspan_trace_shape *shape) {
   lua_createtable(L, (int)shape->point_count, 0);
   for (size_t i = 0; i < shape->point_count; i++) {
-    lua_createtable(L, 3, 0);
-    lua_pushnumber(L, shape->points[i].x);
-    lua_rawseti(L, -2, 1);
-    lua_pushnumber(L, shape->points[i].y);
-    lua_rawseti(L, -2, 2);
-    lua_pushnumber(L, shape->widths[i]);
-    lua_rawseti(L, -2, 3);
+    const celspan_point *at = &shape->points[i];
+    cs_push_numbers(L, (const double[]){at->x, at->y, shape->widths[i]}, 3);
     lua_rawseti(L, -2, (lua_Integer)i + 1);
   }
 }

@@ -5,6 +5,7 @@
 #include "celspan/track.h"
 #include "lua/bind/form.h"
 #include "lua/bind/host.h"
+#include "lua/bind/put.h"
 #include "lua/bind/userdata.h"
 #include "lua/module/core.h"
 
@@ -88,11 +89,10 @@ static celspan_tracker *tracker_at(lua_State *L, int index) {
 }
 
 static void push_matrix(lua_State *L, celspan_matrix matrix) {
-  lua_createtable(L, 9, 0);
-  for (int i = 0; i < 9; i++) {
-    lua_pushnumber(L, matrix.m[i] / matrix.m[8]);
-    lua_rawseti(L, -2, i + 1);
-  }
+  double numbers[9];
+  for (int i = 0; i < 9; i++)
+    numbers[i] = matrix.m[i] / matrix.m[8];
+  cs_push_numbers(L, numbers, 9);
 }
 
 /* The motion of a sighting, for coordinates that are counted from the corner of the first pixel. */

@@ -146,12 +146,10 @@ static celspan_status put_contours(lua_State *L, const cs_outline *outline,
 
 static void put_triple(lua_State *L, const char *name, const float sum[3], float share,
                        double fallback) {
-  lua_createtable(L, 3, 0);
-  for (int c = 0; c < 3; c++) {
-    lua_pushnumber(L, share > 0 ? fmin(sum[c] / (double)share, 1) : fallback);
-    lua_rawseti(L, -2, c + 1);
-  }
-  lua_setfield(L, -2, name);
+  double numbers[3];
+  for (int c = 0; c < 3; c++)
+    numbers[c] = share > 0 ? fmin(sum[c] / (double)share, 1) : fallback;
+  cs_put_numbers(L, name, numbers, 3);
 }
 
 static void put_paint(lua_State *L, const cs_paint *paint) {

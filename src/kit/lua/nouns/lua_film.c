@@ -197,14 +197,9 @@ void cs_lua_film_push_still(lua_State *L, int rostrum, int32_t width, int32_t he
   rostrum = lua_absindex(L, rostrum);
   lua_createtable(L, 0, 2);
   int form = lua_gettop(L);
-  if (lua_getfield(L, rostrum, "size") == LUA_TNIL) {
-    lua_createtable(L, 2, 0);
-    lua_pushinteger(L, width);
-    lua_rawseti(L, -2, 1);
-    lua_pushinteger(L, height);
-    lua_rawseti(L, -2, 2);
-  }
-  lua_setfield(L, form, "size");
+  cs_put_pair(L, "size", width, height);
+  if (lua_getfield(L, rostrum, "size") != LUA_TNIL)
+    lua_setfield(L, form, "size");
   lua_getfield(L, rostrum, "space");
   lua_setfield(L, form, "space");
   lua_settop(L, form);

@@ -6,6 +6,7 @@
 #include "lua/bind/host.h"
 #include "lua/bind/named.h"
 #include "lua/bind/numbers.h"
+#include "lua/bind/put.h"
 #include "lua/nouns/nouns.h"
 
 /* Each paint gets its own texture at once, so that the core checks the paint here, and objects can
@@ -61,15 +62,6 @@ static void create_paint(const cs_form *form, cs_userdata *value) {
        from_doubles(read.pigment, read.medium, read.beta));
 }
 
-static void set_triple(lua_State *L, const char *name, const double triple[3]) {
-  lua_createtable(L, 3, 0);
-  for (int i = 0; i < 3; i++) {
-    lua_pushnumber(L, triple[i]);
-    lua_rawseti(L, -2, i + 1);
-  }
-  lua_setfield(L, -2, name);
-}
-
 /* Adds a missing triple, and replaces a colour by its numbers, so that scripts can read it. */
 static void complete_triple(lua_State *L, int fields, const char *name, double fallback) {
   int type = lua_getfield(L, fields, name);
@@ -77,10 +69,10 @@ static void complete_triple(lua_State *L, int fields, const char *name, double f
   if (type == LUA_TSTRING && celspan_paint_parse(lua_tostring(L, -1), &colour)) {
     double numbers[3] = {colour.pigment[0], colour.pigment[1], colour.pigment[2]};
     lua_settop(L, fields);
-    set_triple(L, name, numbers);
+    cs_put_numbers(L, name, numbers, 3);
   } else if (type == LUA_TNIL) {
     lua_settop(L, fields);
-    set_triple(L, name, (const double[]){fallback, fallback, fallback});
+    cs_put_numbers(L, name, (const double[]){fallback, fallback, fallback}, 3);
   }
   lua_settop(L, fields);
 }

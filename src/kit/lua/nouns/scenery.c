@@ -38,15 +38,6 @@ typedef struct asked {
   int shared;
 } asked;
 
-static void put_list(lua_State *L, const char *name, const double *numbers, size_t count) {
-  lua_createtable(L, (int)count, 0);
-  for (size_t i = 0; i < count; i++) {
-    lua_pushnumber(L, numbers[i]);
-    lua_rawseti(L, -2, (lua_Integer)i + 1);
-  }
-  lua_setfield(L, -2, name);
-}
-
 /* ---------------------------------------------------------------- fills */
 
 /* Whether light that the paint lets through keeps its colour. */
@@ -60,17 +51,12 @@ static bool is_neutral(const cs_paint *paint) {
 static void add_stop(lua_State *L, lua_Integer i, double at, const cs_paint *paint) {
   const double beta = paint->beta, part = beta > 0 ? beta : 1;
   const double stop[] = {at, paint->s[0] / part, paint->s[1] / part, paint->s[2] / part, beta};
-  lua_createtable(L, 5, 0);
-  for (int k = 0; k < 5; k++) {
-    lua_pushnumber(L, stop[k]);
-    lua_rawseti(L, -2, k + 1);
-  }
+  cs_push_numbers(L, stop, 5);
   lua_rawseti(L, -2, i);
 }
 
 static celspan_point moved(const celspan_matrix *matrix, celspan_point point) {
-  const cs_hpoint at = cs_matrix_apply(matrix, (cs_hpoint){point.x, point.y, 1});
-  return (celspan_point){at.x / at.w, at.y / at.w};
+  return cs_hpoint_place(cs_matrix_apply(matrix, cs_hpoint_of(point)));
 }
 
 /* Whether the matrix keeps circles round. */
@@ -148,7 +134,7 @@ static void put_fill(lua_State *L, const celspan_texture *texture) {
     const celspan_matrix matrix = v->has_matrix ? v->matrix : celspan_matrix_identity();
     const celspan_point a = moved(&matrix, v->points[0]);
     const celspan_point b = second_of(texture, &matrix);
-    put_list(L, "points", (const double[]){a.x, a.y, b.x, b.y}, 4);
+    cs_put_numbers(L, "points", (const double[]){a.x, a.y, b.x, b.y}, 4);
     cs_put_number(L, "radius",
                   v->radius * sqrt(matrix.m[0] * matrix.m[0] + matrix.m[3] * matrix.m[3]));
   }
@@ -258,7 +244,7 @@ static void put_matrix(lua_State *L, const celspan_matrix *matrix) {
   double numbers[6];
   for (int i = 0; i < 6; i++)
     numbers[i] = matrix->m[i] / matrix->m[8];
-  put_list(L, "matrix", numbers, 6);
+  cs_put_numbers(L, "matrix", numbers, 6);
 }
 
 /* Recursion ends: nesting is at most CS_SCENE_DEPTH. */
@@ -308,7 +294,7 @@ static void push_cel(const asked *of, const celspan_rostrum *rostrum, size_t ind
   cs_put_number(L, "fade", cel->opacity);
   cs_put_text(L, "why", refuse_cel(rostrum, cel, &matrix));
   put_matrix(L, &matrix);
-  put_list(L, "front", (const double[]){front.r, front.g, front.b}, 3);
+  cs_put_numbers(L, "front", (const double[]){front.r, front.g, front.b}, 3);
   for (size_t i = 0; i < cel->object_count; i++) {
     push_placed(of, cel->objects[i]);
     lua_rawseti(L, -2, (lua_Integer)i + 1);
@@ -322,7 +308,7 @@ static void put_back(const asked *of, const celspan_rostrum *rostrum) {
   if (light.texture)
     cs_put_text(of->L, "why", "a light with a shape");
   else if (back.r > 0 || back.g > 0 || back.b > 0 || back.a > 0)
-    put_list(of->L, "back", numbers, 4);
+    cs_put_numbers(of->L, "back", numbers, 4);
 }
 
 /* (rostrum, width, height, space, shared) -> the scene. space: "linear" or "srgb", of the film. */

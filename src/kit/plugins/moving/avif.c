@@ -10,6 +10,7 @@
 
 #include <avif/avif.h>
 
+#include "common/bytes.h"
 #include "plugins/moving/moving.h"
 #include "writers/exr/rate.h"
 
@@ -152,7 +153,7 @@ static bool is_one_of(const unsigned char *type, const char *types) {
 static void clear_times(unsigned char *bytes, size_t size) {
   for (size_t at = 0; size - at >= 8;) {
     unsigned char *box = bytes + at;
-    size_t whole = (size_t)box[0] << 24 | (size_t)box[1] << 16 | (size_t)box[2] << 8 | box[3];
+    size_t whole = cs_bytes_big32(box);
     if (whole < 8 || whole > size - at)
       return; /* the media, of 4 GB or more, come after these boxes */
     if (is_one_of(box + 4, "moovtrakmdia"))

@@ -18,6 +18,7 @@
 
 #include <webp/encode.h>
 
+#include "common/bytes.h"
 #include "plugins/moving/moving.h"
 
 enum {
@@ -52,11 +53,6 @@ typedef struct writing {
 } writing;
 
 static int32_t least(int32_t a, int32_t b) { return a < b ? a : b; }
-
-static void store(unsigned char *out, uint32_t value, int bytes) {
-  for (int i = 0; i < bytes; i++)
-    out[i] = (unsigned char)(value >> (8 * i));
-}
 
 static bool is_whole(const writing *w) { return w->moving->output.moving.quality > 100; }
 
@@ -234,12 +230,12 @@ static celspan_status flush(writing *w, int64_t until, cs_picture_failure *failu
   size_t skipped = is_extended ? 30 : 12, size = w->coded.size - skipped;
   int64_t time = until - w->began < MOST_TIME ? until - w->began : MOST_TIME;
   unsigned char head[FRAME] = "ANMF";
-  store(head + 4, (uint32_t)(size + FRAME - 8), 4);
-  store(head + 8, (uint32_t)w->place.left / 2, 3);
-  store(head + 11, (uint32_t)w->place.top / 2, 3);
-  store(head + 14, (uint32_t)(w->place.right - w->place.left - 1), 3);
-  store(head + 17, (uint32_t)(w->place.bottom - w->place.top - 1), 3);
-  store(head + 20, (uint32_t)time, 3);
+  cs_bytes_put_little(head + 4, (uint32_t)(size + FRAME - 8), 4);
+  cs_bytes_put_little(head + 8, (uint32_t)w->place.left / 2, 3);
+  cs_bytes_put_little(head + 11, (uint32_t)w->place.top / 2, 3);
+  cs_bytes_put_little(head + 14, (uint32_t)(w->place.right - w->place.left - 1), 3);
+  cs_bytes_put_little(head + 17, (uint32_t)(w->place.bottom - w->place.top - 1), 3);
+  cs_bytes_put_little(head + 20, (uint32_t)time, 3);
   head[23] = w->flags;
   celspan_status status = append(w, head, FRAME, failure);
   if (status == CELSPAN_OK)
@@ -278,7 +274,7 @@ static celspan_status put_metadata(writing *w, cs_picture_failure *failure) {
   const char *text = w->moving->metadata;
   size_t size = strlen(text);
   unsigned char head[8] = "XMP ";
-  store(head + 4, (uint32_t)size, 4);
+  cs_bytes_put_little(head + 4, (uint32_t)size, 4);
   celspan_status status = append(w, head, sizeof head, failure);
   if (status == CELSPAN_OK)
     status = append(w, text, size + size % 2, failure); /* with its 0 where a byte must follow */
@@ -290,14 +286,14 @@ static celspan_status put_head(const writing *w, cs_picture_failure *failure) {
   const cs_picture_output *output = &w->moving->output;
   int32_t plays = output->moving.plays;
   unsigned char head[HEAD] = "RIFF....WEBPVP8X";
-  store(head + 4, (uint32_t)w->size - 8, 4);
-  store(head + 16, 10, 4);
+  cs_bytes_put_little(head + 4, (uint32_t)w->size - 8, 4);
+  cs_bytes_put_little(head + 16, 10, 4);
   head[20] = HAS_ANIMATION | HAS_METADATA | HAS_ALPHA;
-  store(head + 24, (uint32_t)output->width - 1, 3);
-  store(head + 27, (uint32_t)output->height - 1, 3);
+  cs_bytes_put_little(head + 24, (uint32_t)output->width - 1, 3);
+  cs_bytes_put_little(head + 27, (uint32_t)output->height - 1, 3);
   memcpy(head + 30, "ANIM", 4);
-  store(head + 34, 6, 4);
-  store(head + 42, (uint32_t)least(plays, UINT16_MAX), 2);
+  cs_bytes_put_little(head + 34, 6, 4);
+  cs_bytes_put_little(head + 42, (uint32_t)least(plays, UINT16_MAX), 2);
   return cs_moving_put(w->moving, 0, head, HEAD, failure);
 }
 

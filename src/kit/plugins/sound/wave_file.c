@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "common/bytes.h"
 #include "inside/sinks.h"
 
 enum { PIECE = 4096, HEAD = 58, WHOLE_HEAD = 44, FLOAT = 3, WHOLE = 1 };
@@ -19,9 +20,7 @@ typedef struct writing {
 /* ---------------------------------------------------------------- bytes */
 
 static unsigned char *put(unsigned char *at, uint32_t number, int size) {
-  for (int i = 0; i < size; i++)
-    *at++ = (unsigned char)(number >> 8 * i);
-  return at;
+  return cs_bytes_put_little(at, number, size);
 }
 
 static unsigned char *put_name(unsigned char *at, const char *name) {

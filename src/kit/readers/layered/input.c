@@ -7,8 +7,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "common/bytes.h"
 #include "inside/files.h"
-#include "readers/layered/bytes.h"
 
 celspan_status cs_input_fail(celspan_context *context, const cs_input *input, int64_t offset,
                              celspan_status status, const char *format, ...) {

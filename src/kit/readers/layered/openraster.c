@@ -3,7 +3,7 @@
 
 #include "celspan/layers.h"
 #include "common/blend_names.h"
-#include "readers/layered/bytes.h"
+#include "common/bytes.h"
 #include "readers/layered/document.h"
 #include "readers/layered/png.h"
 #include "readers/layered/profile.h"

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "readers/layered/bytes.h"
+#include "common/bytes.h"
 #include "readers/layered/contents.h"
 
 enum { GREY = 0, RGB = 2, INDEXED = 3, GREY_ALPHA = 4, RGBA = 6 };

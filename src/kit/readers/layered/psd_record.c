@@ -4,6 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "common/utf8.h"
+
 /* ---------------------------------------------------------------- tagged blocks */
 
 /* Keys whose lengths have 8 bytes in large documents. */
@@ -55,14 +57,12 @@ static void read_unicode_name(cs_cursor *cursor, uint64_t size, cs_psd_record *o
       code = 0x10000 + ((code & 0x3FF) << 10) + (cs_cursor_16(cursor) & 0x3FF);
       i++;
     }
-    static const unsigned char lead[] = {0, 0, 0xC0, 0xE0, 0xF0};
-    int bytes = code < 0x80 ? 1 : code < 0x800 ? 2 : code < 0x10000 ? 3 : 4;
-    if (out->name_size + (size_t)bytes >= sizeof out->name)
+    char bytes[4];
+    size_t added = cs_utf8_put(bytes, code);
+    if (out->name_size + added >= sizeof out->name)
       return;
-    for (int k = bytes - 1; k > 0; k--, code >>= 6)
-      out->name[out->name_size + (size_t)k] = (char)(0x80 | (code & 0x3F));
-    out->name[out->name_size] = (char)(lead[bytes] | code);
-    out->name_size += (size_t)bytes;
+    memcpy(out->name + out->name_size, bytes, added);
+    out->name_size += added;
   }
 }
 

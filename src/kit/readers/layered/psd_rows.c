@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#include "readers/layered/bytes.h"
+#include "common/bytes.h"
 #include "readers/layered/stream.h"
 
 typedef struct channel_rows {

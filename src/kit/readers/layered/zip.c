@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "readers/layered/bytes.h"
+#include "common/bytes.h"
 
 enum { LOCAL_HEADER = 30, ENTRY = 46, END = 22, END_64 = 56, LOCATOR_64 = 20 };
 enum { ENCRYPTED = 1 };

@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "common/bytes.h"
 #include "inside/context.h"
 #include "inside/files.h"
 #include "inside/hash.h"
@@ -108,8 +109,7 @@ typedef struct font_bytes {
 } font_bytes;
 
 static uint32_t number_at(const font_bytes *font, size_t at) {
-  const uint8_t *b = font->bytes + at;
-  return (uint32_t)b[0] << 24 | (uint32_t)b[1] << 16 | (uint32_t)b[2] << 8 | b[3];
+  return cs_bytes_big32(font->bytes + at);
 }
 
 static celspan_status fail_format(const font_bytes *font) {

@@ -3,6 +3,8 @@
 
 #include <string.h>
 
+#include "common/utf8.h"
+
 /* The number of bytes of a character that begins with this byte; 0 if no character does. */
 static int length_of(unsigned char first) {
   return first < 0x80   ? 1
@@ -66,14 +68,6 @@ celspan_status cs_utf8_decode(celspan_context *context, const char *noun, const 
 
 cs_utf8_text cs_utf8_encode(uint32_t character) {
   cs_utf8_text out = {{0}};
-  if (character < 0x80) {
-    out.text[0] = (char)character;
-    return out;
-  }
-  int more = character < 0x800 ? 1 : character < 0x10000 ? 2 : 3;
-  static const unsigned char first[] = {0, 0xc0, 0xe0, 0xf0};
-  out.text[0] = (char)(first[more] | character >> 6 * more);
-  for (int i = 1; i <= more; i++)
-    out.text[i] = (char)(0x80 | (character >> 6 * (more - i) & 0x3f));
+  cs_utf8_put(out.text, character);
   return out;
 }

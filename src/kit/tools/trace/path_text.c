@@ -1,8 +1,9 @@
 #include "tools/trace/path_text.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
+
+#include "common/steps.h"
 
 static celspan_status add(celspan_context *context, cs_writing *writing, const char *bytes,
                           size_t size) {
@@ -17,24 +18,9 @@ celspan_status cs_writing_add(celspan_context *context, cs_writing *writing, con
   return add(context, writing, text, strlen(text));
 }
 
-/* Uses only integers, so that the result does not depend on a locale. Returns the length of the
- * text, without its zero. */
-static size_t put_number(char *out, double number) {
-  int64_t thousandths = (int64_t)floor(number * 1000 + 0.5);
-  size_t size = 0;
-  if (thousandths < 0) {
-    out[size++] = '-';
-    thousandths = -thousandths;
-  }
-  size += (size_t)snprintf(out + size, 22, "%lld", (long long)(thousandths / 1000));
-  int part = (int)(thousandths % 1000);
-  if (part > 0) {
-    out[size++] = '.';
-    for (int digit = 100; part > 0; part %= digit, digit /= 10)
-      out[size++] = (char)('0' + part / digit);
-  }
-  out[size] = '\0';
-  return size;
+/* Returns the length of the text, without its zero. */
+static size_t put_number(char out[CS_STEPS_SIZE], double number) {
+  return cs_steps_put(out, (int64_t)floor(number * 1000 + 0.5), 3, true);
 }
 
 cs_decimal cs_decimal_of(double number) {
@@ -45,7 +31,7 @@ cs_decimal cs_decimal_of(double number) {
 
 celspan_status cs_writing_draw(celspan_context *context, cs_writing *writing, char letter,
                                const celspan_point *points, int count) {
-  char text[8 + 3 * 2 * 32];
+  char text[8 + 3 * 2 * CS_STEPS_SIZE];
   size_t size = 0;
   text[size++] = letter;
   for (int i = 0; i < count; i++) {

@@ -3,7 +3,6 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "common/blend_names.h"
 #include "inside/colour.h"
 #include "inside/scene.h"
 #include "inside/sinks.h"
@@ -32,12 +31,11 @@ static bool has_matte(const cs_light *back) {
   return back->texture ? back->matte > 0 : back->flat.a > 0;
 }
 
-/* Whether a file has the mode. */
-static bool has_mode(cs_apart_format format, celspan_blend blend) {
-  return format == CS_APART_ORA || (format == CS_APART_PSD && cs_blend_is_photoshop(blend));
+static bool has_mode(const cs_apart_format *format, celspan_blend blend) {
+  return format->has_mode && format->has_mode(blend);
 }
 
-static const char *blend_reason(const celspan_cel *cel, cs_apart_format format,
+static const char *blend_reason(const celspan_cel *cel, const cs_apart_format *format,
                                 celspan_space space) {
   if (!cs_cel_blends(cel, space))
     return NULL;
@@ -48,18 +46,18 @@ static const char *blend_reason(const celspan_cel *cel, cs_apart_format format,
              : "has a blend mode that such files do not have";
 }
 
-/* Only EXR has light where alpha is 0. */
-static const char *back_reason(const cs_light *back, cs_apart_format format) {
+static const char *back_reason(const cs_light *back, const cs_apart_format *format) {
   bool has_light = back->texture || back->flat.r > 0 || back->flat.g > 0 || back->flat.b > 0;
   if (has_matte(back))
     return "has a back light with a matte";
-  return has_light && format != CS_APART_EXR
+  return has_light && !format->is_light
              ? "has a back light without a matte, which such files lack where alpha is 0"
              : NULL;
 }
 
 /* NULL: the layer of the cel over the layers behind it shows the same as the frame. */
-static const char *reason_of(const celspan_cel *cel, cs_apart_format format, celspan_space space) {
+static const char *reason_of(const celspan_cel *cel, const cs_apart_format *format,
+                             celspan_space space) {
   const char *blends = blend_reason(cel, format, space);
   if (blends)
     return blends;
@@ -75,8 +73,8 @@ static bool refuse_cel(const celspan_rostrum *rostrum, size_t index, const char 
   return false;
 }
 
-static bool cels_sum(const celspan_rostrum *rostrum, cs_apart_format format, celspan_space space,
-                     char *why) {
+static bool cels_sum(const celspan_rostrum *rostrum, const cs_apart_format *format,
+                     celspan_space space, char *why) {
   for (size_t i = 0; i < rostrum->cel_count; i++) {
     const char *reason = reason_of(rostrum->cels[i], format, space);
     if (reason)
@@ -107,12 +105,12 @@ static bool shows_nothing(const celspan_exposure *exposures, size_t count) {
 
 /* Layers of light are mixed as light, and layers of codes as codes. coding: of the pixels. NULL: as
  * the film mixes. */
-static const char *mixing_of(cs_apart_format format, const celspan_coding *coding,
+static const char *mixing_of(const cs_apart_format *format, const celspan_coding *coding,
                              celspan_space space, celspan_space film_space) {
   celspan_coding whole = cs_pixels_resolve(coding, CELSPAN_DEPTH_8);
   bool is_light = space != CELSPAN_SPACE_SRGB && film_space != CELSPAN_SPACE_SRGB;
   bool is_code = space == CELSPAN_SPACE_SRGB && film_space == CELSPAN_SPACE_SRGB;
-  bool is_linear = format == CS_APART_EXR || whole.transfer == CELSPAN_TRANSFER_LINEAR;
+  bool is_linear = format->is_light || whole.transfer == CELSPAN_TRANSFER_LINEAR;
   if (!is_linear && whole.transfer != CELSPAN_TRANSFER_SRGB)
     return "--colour or --display converts each layer by itself, and films mix light or the codes "
            "of sRGB";
@@ -153,7 +151,7 @@ static bool is_signed(const cs_antialias *antialias) {
   return is;
 }
 
-bool cs_apart_sums(const celspan_exposure *exposures, size_t count, cs_apart_format format,
+bool cs_apart_sums(const celspan_exposure *exposures, size_t count, const cs_apart_format *format,
                    const celspan_coding *coding, celspan_space film_space, char why[CS_APART_WHY]) {
   const celspan_exposure *whole = find_whole(exposures, count);
   if (!whole && shows_nothing(exposures, count))
@@ -181,5 +179,5 @@ bool cs_apart_sums(const celspan_exposure *exposures, size_t count, cs_apart_for
     return false;
   }
   return cels_sum(rostrum, format, space, why) &&
-         (format == CS_APART_EXR || lights_sum(rostrum, space, why));
+         (format->is_light || lights_sum(rostrum, space, why));
 }

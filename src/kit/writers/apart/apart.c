@@ -242,21 +242,3 @@ cs_hash cs_apart_hash(const celspan_exposure *exposures, size_t count) {
     hash_names(&hash, exposures[i].rostrum);
   return cs_hash_end(hash);
 }
-
-/* ---------------------------------------------------------------- progress */
-
-static bool report(void *user, int32_t rows_done, int32_t rows_total) {
-  const cs_apart_progress *progress = user;
-  const celspan_frame_desc *desc = progress->desc;
-  double share = (double)rows_done / rows_total;
-  double rows = rows_total * ((double)progress->done - 1 + share) / (double)progress->count;
-  return desc->progress(desc->progress_user, (int32_t)rows, rows_total);
-}
-
-void cs_apart_report_to(cs_apart_progress *progress, celspan_frame_desc *picture) {
-  progress->done++;
-  if (!progress->desc->progress)
-    return;
-  picture->progress = report;
-  picture->progress_user = progress;
-}

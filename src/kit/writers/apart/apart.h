@@ -43,30 +43,6 @@ typedef enum cs_apart_mattes {
   CS_APART_MATTES_NAMES
 } cs_apart_mattes;
 
-typedef enum cs_apart_format {
-  CS_APART_EXR,
-  CS_APART_PNG,
-  CS_APART_ORA,
-  CS_APART_PSD
-} cs_apart_format;
-
-/* What a file has beside the frame. */
-typedef struct cs_apart_contents {
-  cs_apart_format format;
-  bool has_layers;
-  size_t place;           /* PNG: where the names of layers come into the file's name */
-  cs_apart_mattes mattes; /* Cryptomatte */
-} cs_apart_contents;
-
-/* The progress of a frame that is made of several pictures, one after the other. */
-typedef struct cs_apart_progress {
-  const celspan_frame_desc *desc; /* whose progress function is called */
-  size_t done, count;             /* pictures */
-} cs_apart_progress;
-
-/* Makes a picture report as the next of `count`. progress: borrowed until it is made. */
-void cs_apart_report_to(cs_apart_progress *progress, celspan_frame_desc *picture);
-
 /* Whether anything of an exposure is in the frame. */
 static inline bool cs_apart_shows(const celspan_exposure *exposure) { return exposure->weight > 0; }
 
@@ -94,45 +70,74 @@ const char *cs_apart_title(const cs_apart_layer *layer);
  * become _. It is cut where it has more than `most` bytes, at the beginning of a character. */
 void cs_safe_name(const char *name, size_t most, char out[CS_APART_NAME]);
 
+/* ---- write.c */
+
+/* What a file has beside the frame. */
+typedef struct cs_apart_contents {
+  bool has_layers;
+  size_t place;           /* PNG: where the names of layers come into the file's name */
+  cs_apart_mattes mattes; /* EXR: Cryptomatte */
+} cs_apart_contents;
+
+typedef struct cs_apart_format cs_apart_format;
+
+/* A file with layers that is written: the first member of what its format keeps. */
+typedef struct cs_apart_writing {
+  celspan_context *context;
+  const cs_apart_format *format;
+  cs_apart_contents contents;
+  celspan_frame_desc frame;
+  const char *path;
+  celspan_file_desc file;
+  celspan_coding coding; /* resolved */
+  int32_t width, height; /* the size of all pictures, in pixels */
+  size_t suffix;         /* the most bytes that are added to a layer's name */
+  cs_apart apart;
+  size_t done, count; /* pictures: for the progress */
+} cs_apart_writing;
+
+/* What a format of files with layers can say, and how it is written: `check`, `begin`, `put` for
+ * the frame as picture 0 and for all layers, from the rearmost one, and `end`. The frame comes
+ * first, so that a picture that cannot be read is reported with its place in the frame. All
+ * functions but `put` may be NULL. */
+struct cs_apart_format {
+  celspan_depth depth; /* where none is given */
+  bool is_light;       /* layers have linear light without a limit, also where alpha is 0 */
+  bool (*has_mode)(celspan_blend blend); /* NULL: layers have no modes and opacities */
+  int steps;                             /* opacities are whole numbers of this part of 1; 0: any */
+  size_t size;                           /* bytes of what is kept, which are 0 at the beginning */
+  celspan_status (*check)(cs_apart_writing *writing); /* before there are layers */
+  celspan_status (*begin)(cs_apart_writing *writing);
+  celspan_status (*put)(cs_apart_writing *writing, const celspan_frame_desc *picture, size_t index);
+  /* In any case after `begin`. outcome: of all that came before. */
+  celspan_status (*end)(cs_apart_writing *writing, celspan_status outcome);
+};
+
+/* OpenEXR in linear light, row by row, with layers as channels NAME.R NAME.G NAME.B NAME.A, and
+ * with mattes; coding: depth DEFAULT, HALF or FLOAT. PNG: a file for each layer. OpenRaster;
+ * Photoshop. These two: straight alpha, and depth DEFAULT, 8 or 16. */
+extern const cs_apart_format cs_apart_exr, cs_apart_png, cs_apart_ora, cs_apart_psd;
+
+/* Writes the frame and what it contains. Errors: OUTPUT; LIMIT, for example of a frame that is too
+ * large for the format, before it is rendered; those of rendering. */
+CELSPAN_CHECKED celspan_status cs_apart_write(celspan_context *context,
+                                              const cs_apart_format *format,
+                                              cs_apart_contents contents,
+                                              const celspan_frame_desc *desc, const char *path,
+                                              const celspan_file_desc *file);
+
+/* For formats: makes a picture report its progress as the next one. */
+void cs_apart_report_to(cs_apart_writing *writing, celspan_frame_desc *picture);
+/* The same, and renders it into the sink. */
+CELSPAN_CHECKED celspan_status cs_apart_render(cs_apart_writing *writing,
+                                               const celspan_frame_desc *picture,
+                                               celspan_sink *sink);
+
 /* ---- adding_up.c */
 
 /* Whether the layers over each other are the frame, where edges do not share a pixel. why: else a
  * clause that says what prevents it. coding: of the files. film_space: of the frame's
  * rows. */
 enum { CS_APART_WHY = 768 };
-bool cs_apart_sums(const celspan_exposure *exposures, size_t count, cs_apart_format format,
+bool cs_apart_sums(const celspan_exposure *exposures, size_t count, const cs_apart_format *format,
                    const celspan_coding *coding, celspan_space film_space, char why[CS_APART_WHY]);
-
-/* ---- apart_png.c */
-
-/* Writes each layer and the frame into PNG files. Errors: OUTPUT, LIMIT, those of rendering. */
-CELSPAN_CHECKED celspan_status cs_apart_write_png(celspan_context *context,
-                                                  cs_apart_contents contents,
-                                                  const celspan_frame_desc *desc, const char *path,
-                                                  const celspan_file_desc *file);
-
-/* ---- apart_ora.c */
-
-/* Writes an OpenRaster file with the layers. file: its coding has straight alpha and depth DEFAULT,
- * 8 or 16. Errors: OUTPUT, LIMIT, those of rendering. */
-CELSPAN_CHECKED celspan_status cs_apart_write_ora(celspan_context *context,
-                                                  const celspan_frame_desc *desc, const char *path,
-                                                  const celspan_file_desc *file);
-
-/* ---- apart_psd.c */
-
-/* Writes a Photoshop document with the layers. file: as above. Errors: OUTPUT; LIMIT, for example
- * of a frame that is too large, before it is rendered; those of rendering. */
-CELSPAN_CHECKED celspan_status cs_apart_write_psd(celspan_context *context,
-                                                  const celspan_frame_desc *desc, const char *path,
-                                                  const celspan_file_desc *file);
-
-/* ---- apart_exr.c */
-
-/* Writes the frame, its layers as channels NAME.R NAME.G NAME.B NAME.A, and its mattes into an
- * OpenEXR file in linear light, row by row. file: its coding has depth DEFAULT, HALF or FLOAT.
- * Errors: OUTPUT, LIMIT, those of rendering. */
-CELSPAN_CHECKED celspan_status cs_apart_write_exr(celspan_context *context,
-                                                  cs_apart_contents contents,
-                                                  const celspan_frame_desc *desc, const char *path,
-                                                  const celspan_file_desc *file);

@@ -10,7 +10,6 @@
 #include <string.h>
 
 #include "inside/colour.h"
-#include "inside/frames.h"
 #include "inside/scene.h"
 #include "inside/sinks.h"
 #include "writers/apart/apart.h"
@@ -22,67 +21,66 @@ enum { CHANNELS = 4, SUFFIX = 2 }; /* ".R" */
 
 #define LIST "celspan:layers"
 
-typedef struct writing {
-  celspan_context *context;
-  cs_apart_contents contents;
-  cs_apart apart;
-  cs_cryptomatte crypto; /* used if there are mattes */
-  cs_sources sources;    /* the sources of the frame, then of each layer */
-  celspan_frame_desc frame;
-  celspan_coding coding;
-  int32_t width, height, lines; /* lines: rows that are made together */
-  size_t count;                 /* layers, with the frame */
+typedef struct exr_writing {
+  cs_apart_writing base;
+  cs_account_kind account; /* the account before */
+  cs_cryptomatte crypto;   /* used if there are mattes */
+  cs_sources sources;      /* the sources of the frame, then of each layer */
+  int32_t lines;           /* rows that are made together */
+  size_t count;            /* layers, with the frame */
   size_t channel_count;
   cs_exr_channel *channels;
   char (*names)[CS_EXR_NAME + 1]; /* of the channels of layers */
   char *list;                     /* the names of the layers */
   size_t list_size;
-  unsigned char *rows; /* the rows of all layers, one after the other, and of the mattes */
-  void *memory;        /* the memory of the file */
+  unsigned char *rows; /* of all layers, one after the other, and of the mattes */
+  void *memory;        /* of the file */
   size_t memory_size;
   cs_exr exr;
   cs_file *file;
   celspan_status status; /* the status of the file */
-} writing;
+} exr_writing;
 
-static bool has_mattes(const writing *w) { return w->contents.mattes != CS_APART_MATTES_NONE; }
-
-static size_t layers_size(const writing *w) {
-  return w->count * (size_t)w->width * cs_pixels_size(&w->coding);
+static bool has_mattes(const exr_writing *w) {
+  return w->base.contents.mattes != CS_APART_MATTES_NONE;
 }
 
-static size_t row_size(const writing *w) {
-  size_t mattes = (size_t)w->width * CS_CRYPTOMATTE_VALUES * sizeof(float);
+static size_t layers_size(const exr_writing *w) {
+  return w->count * (size_t)w->base.width * cs_pixels_size(&w->base.coding);
+}
+
+static size_t row_size(const exr_writing *w) {
+  size_t mattes = (size_t)w->base.width * CS_CRYPTOMATTE_VALUES * sizeof(float);
   return layers_size(w) + (has_mattes(w) ? mattes : 0);
 }
 
 /* ---------------------------------------------------------------- what is written */
 
-static void name_channels(writing *w) {
+static void name_channels(exr_writing *w) {
   static const char letters[] = "RGBA";
-  size_t pixel = cs_pixels_size(&w->coding);
+  size_t pixel = cs_pixels_size(&w->base.coding);
   for (size_t i = 0; i < w->count * CHANNELS; i++) {
     size_t layer = i / CHANNELS, c = i % CHANNELS;
     snprintf(w->names[i], sizeof w->names[i], "%.*s%s%c", CS_APART_NAME - 1 - SUFFIX,
-             layer ? w->apart.layers[layer - 1].name : "", layer ? "." : "", letters[c]);
+             layer ? w->base.apart.layers[layer - 1].name : "", layer ? "." : "", letters[c]);
     w->channels[i] = (cs_exr_channel){
         .name = w->names[i],
-        .type = w->coding.depth == CELSPAN_DEPTH_FLOAT ? CS_EXR_FLOAT : CS_EXR_HALF,
-        .offset = layer * (size_t)w->width * pixel + c * (pixel / CHANNELS),
+        .type = w->base.coding.depth == CELSPAN_DEPTH_FLOAT ? CS_EXR_FLOAT : CS_EXR_HALF,
+        .offset = layer * (size_t)w->base.width * pixel + c * (pixel / CHANNELS),
         .stride = pixel};
   }
 }
 
-static void list_layers(writing *w) {
+static void list_layers(exr_writing *w) {
   char *end = w->list;
-  for (size_t i = 0; i < w->apart.count; i++)
+  for (size_t i = 0; i < w->base.apart.count; i++)
     end += snprintf(end, w->list_size - (size_t)(end - w->list), "%s%s", i ? "," : "",
-                    w->apart.layers[i].name);
+                    w->base.apart.layers[i].name);
   *end = '\0';
 }
 
-static celspan_status take_memory(writing *w) {
-  celspan_context *context = w->context;
+static celspan_status take_memory(exr_writing *w) {
+  celspan_context *context = w->base.context;
   size_t fitting = CS_SOURCES_PORTION / row_size(w);
   w->lines = fitting < 1 ? 1 : fitting < CS_EXR_LINES ? (int32_t)fitting : CS_EXR_LINES;
   w->list_size = w->count * CS_APART_NAME;
@@ -93,8 +91,8 @@ static celspan_status take_memory(writing *w) {
   return CS_MAKE(context, w->rows, (size_t)w->lines * row_size(w));
 }
 
-static void finish(writing *w) {
-  cs_memory *memory = w->context->memory;
+static void finish(exr_writing *w) {
+  cs_memory *memory = w->base.context->memory;
   cs_sources_finish(&w->sources);
   cs_cryptomatte_finish(&w->crypto);
   cs_mem_free(memory, w->memory, w->memory_size);
@@ -102,56 +100,44 @@ static void finish(writing *w) {
   cs_mem_free(memory, w->list, w->list_size);
   cs_mem_free(memory, w->names, w->count * CHANNELS * sizeof *w->names);
   cs_mem_free(memory, w->channels, w->channel_count * sizeof *w->channels);
-  cs_apart_finish(&w->apart);
 }
 
 /* ---------------------------------------------------------------- rows */
 
-static celspan_status open_rows(writing *w) {
-  CS_TRY(cs_sources_begin(w->context, &w->coding, w->width, w->count, &w->sources));
-  for (size_t i = 0; i < w->count; i++) {
-    celspan_frame_desc frame = w->frame;
-    if (i > 0) {
-      frame.exposures = w->apart.layers[i - 1].exposures;
-      frame.exposure_count = w->apart.layers[i - 1].count;
-    }
-    CS_TRY(cs_sources_open(&w->sources, i, &frame));
-  }
-  return CELSPAN_OK;
-}
-
-static celspan_status make_rows(writing *w, int32_t y, int32_t lines) {
+static celspan_status make_rows(exr_writing *w, int32_t y, int32_t lines) {
   CS_TRY(cs_sources_make(&w->sources, y, lines, w->rows, row_size(w)));
   return has_mattes(w)
              ? cs_cryptomatte_make(&w->crypto, y, lines, w->rows + layers_size(w), row_size(w))
              : CELSPAN_OK;
 }
 
-static celspan_status report_progress(const writing *w, int32_t y) {
-  const celspan_frame_desc *frame = &w->frame;
-  return !frame->progress || frame->progress(frame->progress_user, y, w->height)
+static celspan_status report_progress(const exr_writing *w, int32_t y) {
+  const celspan_frame_desc *frame = &w->base.frame;
+  return !frame->progress || frame->progress(frame->progress_user, y, w->base.height)
              ? CELSPAN_OK
-             : cs_fail(w->context, CELSPAN_CANCELLED, "stopped");
+             : cs_fail(w->base.context, CELSPAN_CANCELLED, "stopped");
 }
 
 /* ---------------------------------------------------------------- the file */
 
-static bool put(void *user, uint64_t offset, const void *bytes, size_t size) {
-  writing *w = user;
+static bool put_bytes(void *user, uint64_t offset, const void *bytes, size_t size) {
+  exr_writing *w = user;
   w->status = offset == cs_file_size(w->file)
-                  ? cs_file_write(w->file, w->context, bytes, size)
-                  : cs_file_write_at(w->file, w->context, offset, bytes, size);
+                  ? cs_file_write(w->file, w->base.context, bytes, size)
+                  : cs_file_write_at(w->file, w->base.context, offset, bytes, size);
   return w->status == CELSPAN_OK;
 }
 
 /* The file's own error, or that of packing, which fails only without memory. */
-static celspan_status conclude(const writing *w, bool is_good) {
-  return w->status != CELSPAN_OK ? w->status : is_good ? CELSPAN_OK : cs_fail_memory(w->context);
+static celspan_status conclude(const exr_writing *w, bool is_good) {
+  return w->status != CELSPAN_OK ? w->status
+         : is_good               ? CELSPAN_OK
+                                 : cs_fail_memory(w->base.context);
 }
 
-static celspan_status write_rows(writing *w) {
-  for (int32_t y = 0; y < w->height; y += w->lines) {
-    int32_t lines = w->height - y < w->lines ? w->height - y : w->lines;
+static celspan_status write_rows(exr_writing *w) {
+  for (int32_t y = 0; y < w->base.height; y += w->lines) {
+    int32_t lines = w->base.height - y < w->lines ? w->base.height - y : w->lines;
     CS_TRY(report_progress(w, y));
     CS_TRY(make_rows(w, y, lines));
     for (int32_t i = 0; i < lines; i++)
@@ -160,24 +146,25 @@ static celspan_status write_rows(writing *w) {
   return conclude(w, cs_exr_end(&w->exr));
 }
 
-static celspan_status write_picture(writing *w, const cs_exr_picture *picture) {
+static celspan_status write_picture(exr_writing *w, const cs_exr_picture *picture) {
   w->memory_size = cs_exr_memory(picture);
-  w->memory = cs_mem_array(w->context->memory, w->memory_size, 1);
+  w->memory = cs_mem_array(w->base.context->memory, w->memory_size, 1);
   if (!w->memory)
-    return cs_fail_memory(w->context);
-  CS_TRY(conclude(w, cs_exr_begin(&w->exr, picture, (cs_exr_target){put, w}, w->memory)));
+    return cs_fail_memory(w->base.context);
+  CS_TRY(conclude(w, cs_exr_begin(&w->exr, picture, (cs_exr_target){put_bytes, w}, w->memory)));
   return write_rows(w);
 }
 
 /* Room for all attributes: four texts, timing, and those of mattes. */
 enum { ATTRIBUTES = 6 + CS_CRYPTOMATTE_ATTRIBUTES };
 
-static size_t list_attributes(const writing *w, const char *title, const cs_exr_timing *timing,
+static size_t list_attributes(const exr_writing *w, const cs_exr_timing *timing,
                               cs_exr_attribute out[ATTRIBUTES]) {
+  const char *title = w->base.file.title;
   cs_exr_attribute *end = out;
   *end++ = cs_exr_text("celspan:colour", "linear");
-  *end++ = cs_exr_text("Software", cs_context_maker(w->context));
-  if (w->contents.has_layers)
+  *end++ = cs_exr_text("Software", cs_context_maker(w->base.context));
+  if (w->base.contents.has_layers)
     *end++ = cs_exr_text(LIST, w->list);
   for (size_t i = 0; i < timing->count; i++)
     *end++ = timing->attributes[i];
@@ -190,69 +177,80 @@ static size_t list_attributes(const writing *w, const char *title, const cs_exr_
   return (size_t)(end - out);
 }
 
-static celspan_status write_file(writing *w, const char *path, const celspan_file_desc *file) {
+static celspan_status write_file(exr_writing *w) {
+  const cs_apart_writing *base = &w->base;
   cs_exr_attribute attributes[ATTRIBUTES];
   cs_exr_timing timing;
-  cs_exr_time(&timing, file->frames_second, file->frame);
-  const cs_exr_picture picture = {.width = w->width,
-                                  .height = w->height,
+  cs_exr_time(&timing, base->file.frames_second, base->file.frame);
+  const cs_exr_picture picture = {.width = base->width,
+                                  .height = base->height,
                                   .channels = w->channels,
                                   .channel_count = w->channel_count,
                                   .attributes = attributes,
                                   .primaries = cs_primaries_known[0].xy,
-                                  .attribute_count =
-                                      list_attributes(w, file->title, &timing, attributes)};
+                                  .attribute_count = list_attributes(w, &timing, attributes)};
   cs_exr_sort(w->channels, w->channel_count);
-  CS_TRY(cs_file_create(w->context, NULL, path, &w->file));
-  return cs_file_end(w->file, w->context, write_picture(w, &picture));
+  CS_TRY(cs_file_create(base->context, NULL, base->path, &w->file));
+  return cs_file_end(w->file, base->context, write_picture(w, &picture));
+}
+
+/* ---------------------------------------------------------------- all */
+
+static celspan_status check(cs_apart_writing *base) {
+  base->suffix = SUFFIX;
+  base->coding.transfer = CELSPAN_TRANSFER_LINEAR;
+  base->frame.has_tolerance = true;
+  base->frame.tolerance = CS_SOURCES_TOLERANCE;
+  return CELSPAN_OK;
 }
 
 /* Sizes in the file are signed and have 32 bits. */
-static celspan_status check_row(const writing *w, const char *path) {
+static celspan_status check_row(const exr_writing *w) {
   return row_size(w) <= INT32_MAX
              ? CELSPAN_OK
-             : cs_fail(w->context, CELSPAN_LIMIT,
-                       "%s: %zu layers of %d pixels are more than a row of OpenEXR can have", path,
-                       w->count, (int)w->width);
+             : cs_fail(w->base.context, CELSPAN_LIMIT,
+                       "%s: %zu layers of %d pixels are more than a row of OpenEXR can have",
+                       w->base.path, w->count, (int)w->base.width);
 }
 
-static celspan_status open_all(writing *w, const char *path) {
-  const celspan_frame_desc *frame = &w->frame;
-  if (w->contents.has_layers)
-    CS_TRY(cs_apart_make(w->context, frame->exposures, frame->exposure_count, SUFFIX, &w->apart));
-  w->count = w->apart.count + 1;
-  CS_TRY(check_row(w, path));
+static celspan_status begin(cs_apart_writing *base) {
+  exr_writing *w = (exr_writing *)base;
+  w->account = cs_account_begin_rendering(base->context->memory);
+  w->count = base->apart.count + 1;
+  CS_TRY(check_row(w));
   CS_TRY(take_memory(w));
   name_channels(w);
   list_layers(w);
-  CS_TRY(open_rows(w));
-  return has_mattes(w)
-             ? cs_cryptomatte_begin(w->context, frame, w->contents.mattes, w->lines, &w->crypto)
-             : CELSPAN_OK;
+  return cs_sources_begin(base->context, &base->coding, base->width, w->count, &w->sources);
 }
 
-static celspan_status write_all(writing *w, const char *path, const celspan_file_desc *file) {
-  CS_TRY(open_all(w, path));
-  return write_file(w, path, file);
+static celspan_status put(cs_apart_writing *base, const celspan_frame_desc *picture, size_t index) {
+  return cs_sources_open(&((exr_writing *)base)->sources, index, picture);
 }
 
-celspan_status cs_apart_write_exr(celspan_context *context, cs_apart_contents contents,
-                                  const celspan_frame_desc *desc, const char *path,
-                                  const celspan_file_desc *file) {
-  CS_TRY(cs_frame_check(context, desc));
-  writing w = {.context = context, .contents = contents, .frame = *desc};
-  w.coding = cs_pixels_resolve(file->coding, CELSPAN_DEPTH_HALF);
-  w.coding.transfer = CELSPAN_TRANSFER_LINEAR;
-  w.coding.space = desc->space;
-  w.width = desc->crop_width > 0 ? desc->crop_width : desc->width;
-  w.height = desc->crop_height > 0 ? desc->crop_height : desc->height;
-  w.frame.has_tolerance = true;
-  w.frame.tolerance = CS_SOURCES_TOLERANCE;
-  cs_account_kind before = cs_account_begin_rendering(context->memory);
-  celspan_status status = write_all(&w, path, file);
-  finish(&w);
-  cs_account_end_rendering(context->memory, before);
-  return status == CELSPAN_INPUT
-             ? cs_blame_picture(context, desc->exposures, desc->exposure_count, status)
-             : status;
+static celspan_status write_pictures(exr_writing *w) {
+  if (has_mattes(w))
+    CS_TRY(cs_cryptomatte_begin(w->base.context, &w->base.frame, w->base.contents.mattes, w->lines,
+                                &w->crypto));
+  return write_file(w);
 }
+
+static celspan_status end(cs_apart_writing *base, celspan_status outcome) {
+  exr_writing *w = (exr_writing *)base;
+  const celspan_frame_desc *frame = &base->frame;
+  if (outcome == CELSPAN_OK)
+    outcome = write_pictures(w);
+  finish(w);
+  cs_account_end_rendering(base->context->memory, w->account);
+  return outcome == CELSPAN_INPUT
+             ? cs_blame_picture(base->context, frame->exposures, frame->exposure_count, outcome)
+             : outcome;
+}
+
+const cs_apart_format cs_apart_exr = {.size = sizeof(exr_writing),
+                                      .depth = CELSPAN_DEPTH_HALF,
+                                      .is_light = true,
+                                      .check = check,
+                                      .begin = begin,
+                                      .put = put,
+                                      .end = end};

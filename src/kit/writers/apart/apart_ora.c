@@ -3,56 +3,40 @@
  *
  *   mimetype | mergedimage.png | data/1.png, the rearmost | data/2.png | ... |
  *   Thumbnails/thumbnail.png | stack.xml, from the front
- *
- * The merged picture comes before the layers, so that a picture that cannot be read is reported
- * with its place in the frame.
  */
 #include <stdio.h>
 #include <string.h>
 
 #include "common/blend_names.h"
 #include "common/markup.h"
-#include "inside/frames.h"
 #include "inside/sinks.h"
 #include "writers/apart/apart.h"
 #include "writers/archive/archive.h"
 
 enum { THUMBNAIL = 256 }; /* pixels a side at most */
 
-typedef struct writing {
-  celspan_context *context;
-  const char *path;
-  const celspan_frame_desc *desc;
-  celspan_file_desc file;
-  celspan_coding coding;
-  cs_apart apart;
-  cs_apart_progress progress;
+typedef struct ora_writing {
+  cs_apart_writing base;
   cs_archive archive;
-  char *xml;
-  size_t xml_size;
-} writing;
+} ora_writing;
 
 /* ---------------------------------------------------------------- pictures */
 
-static celspan_status put_picture(writing *w, const char *name, const celspan_frame_desc *desc) {
-  celspan_frame_desc frame = *desc;
-  celspan_file_desc file = w->file;
+static celspan_status put_picture(ora_writing *w, const char *name,
+                                  const celspan_frame_desc *picture) {
+  cs_apart_writing *base = &w->base;
   celspan_sink sink;
-  file.is_opaque = celspan_frame_is_opaque(&frame);
-  cs_apart_report_to(&w->progress, &frame);
+  base->file.is_opaque = celspan_frame_is_opaque(picture);
   CS_TRY(cs_archive_begin(&w->archive, name));
-  CS_TRY(cs_sink_png_part(w->context, w->path, w->archive.file, &file, &sink));
-  CS_TRY(cs_frame_render_own(w->context, &frame, &sink, NULL));
-  return cs_archive_end(&w->archive, w->path);
+  CS_TRY(cs_sink_png_part(base->context, base->path, w->archive.file, &base->file, &sink));
+  CS_TRY(cs_apart_render(base, picture, &sink));
+  return cs_archive_end(&w->archive, base->path);
 }
 
-static celspan_status put_layer(writing *w, size_t index) {
+static celspan_status put(cs_apart_writing *base, const celspan_frame_desc *picture, size_t index) {
   char name[CS_ARCHIVE_NAME];
-  celspan_frame_desc frame = *w->desc;
-  frame.exposures = w->apart.layers[index].exposures;
-  frame.exposure_count = w->apart.layers[index].count;
-  snprintf(name, sizeof name, "data/%zu.png", index + 1);
-  return put_picture(w, name, &frame);
+  snprintf(name, sizeof name, "data/%zu.png", index);
+  return put_picture((ora_writing *)base, index ? name : "mergedimage.png", picture);
 }
 
 static int32_t scale(int32_t length, double by) {
@@ -65,11 +49,9 @@ static int32_t place(double at, int32_t side) {
   return (int32_t)at < side ? (int32_t)at : side - 1;
 }
 
-static celspan_status put_thumbnail(writing *w) {
-  celspan_frame_desc frame = *w->desc;
-  bool has_crop = frame.crop_width > 0;
-  int32_t width = has_crop ? frame.crop_width : frame.width;
-  int32_t height = has_crop ? frame.crop_height : frame.height;
+static celspan_status put_thumbnail(ora_writing *w) {
+  celspan_frame_desc frame = w->base.frame;
+  int32_t width = w->base.width, height = w->base.height;
   double by = (double)THUMBNAIL / (width > height ? width : height);
   by = by < 1 ? by : 1;
   frame.width = scale(frame.width, by);
@@ -96,56 +78,62 @@ static char *describe(char *out, const cs_apart *apart, size_t index) {
                        index + 1, layer->opacity, mode);
 }
 
-static celspan_status put_list(writing *w) {
-  const celspan_frame_desc *desc = w->desc;
-  w->xml_size = (w->apart.count + 1) * ENTRY;
-  CS_TRY(CS_MAKE(w->context, w->xml, w->xml_size));
-  char *end = w->xml;
+static size_t write_list(const cs_apart_writing *w, char *xml) {
+  char *end = xml;
   end += sprintf(end,
                  "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
                  "<image version=\"0.0.6\" w=\"%d\" h=\"%d\">\n <stack>\n",
-                 (int)(desc->crop_width > 0 ? desc->crop_width : desc->width),
-                 (int)(desc->crop_height > 0 ? desc->crop_height : desc->height));
+                 (int)w->width, (int)w->height);
   for (size_t i = w->apart.count; i-- > 0;)
     end = describe(end, &w->apart, i);
-  end = stpcpy(end, " </stack>\n</image>\n");
-  return cs_archive_put(&w->archive, w->path, "stack.xml", w->xml, (size_t)(end - w->xml));
+  return (size_t)(stpcpy(end, " </stack>\n</image>\n") - xml);
+}
+
+static celspan_status put_list(ora_writing *w) {
+  size_t size = (w->base.apart.count + 1) * ENTRY;
+  char *xml;
+  CS_TRY(CS_MAKE(w->base.context, xml, size));
+  celspan_status status =
+      cs_archive_put(&w->archive, w->base.path, "stack.xml", xml, write_list(&w->base, xml));
+  cs_mem_free(w->base.context->memory, xml, size);
+  return status;
 }
 
 /* ---------------------------------------------------------------- all */
 
-static celspan_status put_all(writing *w) {
+static celspan_status begin(cs_apart_writing *base) {
   static const char type[] = "image/openraster";
-  CS_TRY(cs_archive_put(&w->archive, w->path, "mimetype", type, sizeof type - 1));
-  CS_TRY(put_picture(w, "mergedimage.png", w->desc));
-  for (size_t i = 0; i < w->apart.count; i++)
-    CS_TRY(put_layer(w, i));
+  ora_writing *w = (ora_writing *)base;
+  w->archive.context = base->context;
+  base->file.coding = &base->coding;
+  base->file.title = NULL;
+  base->count++; /* the thumbnail */
+  CS_TRY(cs_file_create(base->context, NULL, base->path, &w->archive.file));
+  return cs_archive_put(&w->archive, base->path, "mimetype", type, sizeof type - 1);
+}
+
+static celspan_status complete(ora_writing *w) {
   CS_TRY(put_thumbnail(w));
   CS_TRY(put_list(w));
   return cs_archive_complete(&w->archive);
 }
 
-static celspan_status write_file(writing *w) {
-  CS_TRY(cs_file_create(w->context, NULL, w->path, &w->archive.file));
-  return cs_file_end(w->archive.file, w->context, put_all(w));
+static celspan_status end(cs_apart_writing *base, celspan_status outcome) {
+  ora_writing *w = (ora_writing *)base;
+  if (outcome == CELSPAN_OK)
+    outcome = complete(w);
+  cs_archive_finish(&w->archive);
+  return w->archive.file ? cs_file_end(w->archive.file, base->context, outcome) : outcome;
 }
 
-celspan_status cs_apart_write_ora(celspan_context *context, const celspan_frame_desc *desc,
-                                  const char *path, const celspan_file_desc *file) {
-  writing w = {.context = context, .path = path, .desc = desc, .file = *file};
-  w.archive.context = context;
-  w.coding = cs_pixels_resolve(file->coding, CELSPAN_DEPTH_8);
-  w.coding.space = desc->space;
-  w.file.coding = &w.coding;
-  w.file.title = NULL;
-  CS_TRY(cs_frame_check(context, desc));
-  CS_TRY(cs_apart_make(context, desc->exposures, desc->exposure_count, 0, &w.apart));
-  celspan_status status = cs_apart_take_mixings(&w.apart, 0);
-  w.progress = (cs_apart_progress){.desc = desc, .count = w.apart.count + 2};
-  if (status == CELSPAN_OK)
-    status = write_file(&w);
-  cs_mem_free(context->memory, w.xml, w.xml_size);
-  cs_archive_finish(&w.archive);
-  cs_apart_finish(&w.apart);
-  return status;
+static bool has_mode(celspan_blend blend) {
+  (void)blend; /* in words of Krita where the specification has none */
+  return true;
 }
+
+const cs_apart_format cs_apart_ora = {.size = sizeof(ora_writing),
+                                      .depth = CELSPAN_DEPTH_8,
+                                      .has_mode = has_mode,
+                                      .begin = begin,
+                                      .put = put,
+                                      .end = end};

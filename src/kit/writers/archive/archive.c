@@ -4,6 +4,8 @@
 #include <string.h>
 #include <zlib.h>
 
+#include "common/bytes.h"
+
 /* Of heads of members, of entries of the list, and of the end, in bytes. */
 enum { HEAD = 30, ENTRY = 46, END = 22, NAMES_ARE_UTF8 = 0x800, VERSION = 20, DEFLATED = 8 };
 
@@ -14,9 +16,7 @@ enum { ZLIB_HEAD = 2, ZLIB_TAIL = 4 };
 enum { DATE = 1 << 5 | 1 };
 
 static unsigned char *store(unsigned char *at, uint32_t number, int bytes) {
-  for (int i = 0; i < bytes; i++)
-    *at++ = (unsigned char)(number >> 8 * i);
-  return at;
+  return cs_bytes_put_little(at, number, bytes);
 }
 
 /* What heads and entries share, from the needed version on. */

@@ -2,6 +2,7 @@
 
 #include <zlib.h>
 
+#include "common/bytes.h"
 #include "inside/sort.h"
 #include "writers/exr/rate.h"
 
@@ -15,14 +16,9 @@ static bool put(cs_exr *exr, const void *bytes, size_t size) {
   return is_good;
 }
 
-static void store_number(unsigned char out[4], uint32_t number) {
-  for (int i = 0; i < 4; i++)
-    out[i] = (unsigned char)(number >> 8 * i);
-}
-
 static bool put_number(cs_exr *exr, uint32_t number) {
   unsigned char bytes[4];
-  store_number(bytes, number);
+  cs_bytes_put_little(bytes, number, 4);
   return put(exr, bytes, sizeof bytes);
 }
 
@@ -43,13 +39,13 @@ static bool put_attribute(cs_exr *exr, const char *name, const char *type, size_
 
 void cs_exr_time(cs_exr_timing *timing, double frames_second, int32_t frame) {
   int32_t fraction[2];
-  store_number(timing->frame, (uint32_t)frame);
+  cs_bytes_put_little(timing->frame, (uint32_t)frame, 4);
   timing->attributes[0] = (cs_exr_attribute){"celspan:frame", "int", timing->frame, 4};
   timing->count = 1;
   if (!cs_rate_fraction(frames_second, fraction))
     return;
-  store_number(timing->rate, (uint32_t)fraction[0]);
-  store_number(timing->rate + 4, (uint32_t)fraction[1]);
+  cs_bytes_put_little(timing->rate, (uint32_t)fraction[0], 4);
+  cs_bytes_put_little(timing->rate + 4, (uint32_t)fraction[1], 4);
   timing->attributes[timing->count++] =
       (cs_exr_attribute){"framesPerSecond", "rational", timing->rate, 8};
 }
@@ -134,8 +130,7 @@ static bool put_chunk(cs_exr *exr) {
   spread(exr->rows, size, exr->scratch);
   if (compress(exr->packed, &packed, exr->scratch, (uLong)size) != Z_OK)
     return false;
-  for (int i = 0; i < 8; i++)
-    exr->places[8 * (first / exr->lines) + i] = (unsigned char)(exr->at >> 8 * i);
+  cs_bytes_put_little(exr->places + 8 * (first / exr->lines), exr->at, 8);
   bool is_smaller = packed < size;
   size_t stored = is_smaller ? packed : size;
   exr->kept = 0;

@@ -26,15 +26,11 @@ static bool put_bytes(void *user, const void *bytes, size_t size) {
   return cs_file_write(joining->file, joining->context, bytes, size) == CELSPAN_OK;
 }
 
-static void *resize(void *user, void *block, size_t old_size, size_t new_size) {
-  return cs_mem_resize(user, block, old_size, new_size);
-}
-
 static spanfile_source source_of(part_source *from) {
   return (spanfile_source){.read = read_bytes,
                            .user = from,
                            .size = from->part->size,
-                           .resize = resize,
+                           .resize = cs_mem_resize_of,
                            .resize_user = from->context->memory};
 }
 
@@ -91,7 +87,7 @@ static celspan_status begin(cs_joining *joining, celspan_context *context,
                                .format = spanfile_reader_info(reader).format,
                                .write = put_bytes,
                                .user = joining,
-                               .resize = resize,
+                               .resize = cs_mem_resize_of,
                                .resize_user = context->memory};
   spanfile_reader_destroy(reader);
   return report(context, spanfile_joiner_create(&desc, &joining->spanfile), first, &fault);

@@ -51,13 +51,14 @@ static void cut(const bend *curve, double t, bend *first, bend *second) {
     *second = now;
 }
 
-static celspan_point place(cs_hpoint p) { return (celspan_point){p.x / p.w, p.y / p.w}; }
-static celspan_point end_of(const bend *curve) { return place(curve->points[curve->degree]); }
+static celspan_point end_of(const bend *curve) {
+  return cs_hpoint_place(curve->points[curve->degree]);
+}
 
 /* Where a curve comes to a number on an axis, between its ends. */
 static double find_root(const bend *curve, bool is_y, double number) {
   double low = 0, high = 1;
-  celspan_point begin = place(curve->points[0]), end = end_of(curve);
+  celspan_point begin = cs_hpoint_place(curve->points[0]), end = end_of(curve);
   bool grows = is_y ? begin.y < end.y : begin.x < end.x;
   for (int i = 0; i < ROOT_STEPS; i++) {
     bend first;
@@ -79,10 +80,10 @@ static void set_end(bend *curve, int i, celspan_point at) {
 
 /* Leaves the part of a curve between two heights, of which one at least is within it. */
 static void cut_heights(bend *curve, double top, double foot) {
-  if (place(curve->points[0]).y < top) {
+  if (cs_hpoint_place(curve->points[0]).y < top) {
     bend whole = *curve;
     cut(&whole, find_root(&whole, true, top), NULL, curve);
-    set_end(curve, 0, (celspan_point){place(curve->points[0]).x, top});
+    set_end(curve, 0, (celspan_point){cs_hpoint_place(curve->points[0]).x, top});
   }
   if (end_of(curve).y > foot) {
     bend whole = *curve;
@@ -121,7 +122,8 @@ static celspan_status append_line(const making *m, celspan_point from, celspan_p
 /* The control point of a curve that leaves its end, or comes to it, as another curve does. */
 static celspan_point tangent(const bend *curve, bool is_end) {
   int at = is_end ? curve->degree : 0, next = is_end ? at - 1 : 1;
-  celspan_point end = place(curve->points[at]), control = place(curve->points[next]);
+  celspan_point end = cs_hpoint_place(curve->points[at]),
+                control = cs_hpoint_place(curve->points[next]);
   double share = curve->points[next].w / curve->points[at].w * curve->degree / 3;
   return (celspan_point){end.x + share * (control.x - end.x), end.y + share * (control.y - end.y)};
 }
@@ -135,10 +137,10 @@ static double conic_share(const bend *curve) {
 
 static bend cubic_of(const bend *curve) {
   bend out = {.degree = 3};
-  celspan_point points[4] = {place(curve->points[0]), tangent(curve, false), tangent(curve, true),
-                             end_of(curve)};
+  celspan_point points[4] = {cs_hpoint_place(curve->points[0]), tangent(curve, false),
+                             tangent(curve, true), end_of(curve)};
   if (curve->is_rational && curve->degree == 2) {
-    celspan_point control = place(curve->points[1]);
+    celspan_point control = cs_hpoint_place(curve->points[1]);
     double share = conic_share(curve);
     for (int i = 1; i < 3; i++) {
       celspan_point end = points[i == 1 ? 0 : 3];
@@ -153,7 +155,7 @@ static bend cubic_of(const bend *curve) {
 
 /* Whether two curves are near each other, at a quarter and three quarters of their height. */
 static bool are_alike(const bend *a, const bend *b) {
-  double top = place(a->points[0]).y, foot = end_of(a).y;
+  double top = cs_hpoint_place(a->points[0]).y, foot = end_of(a).y;
   for (int i = 1; i < 4; i += 2) {
     bend first[2];
     double y = top + (foot - top) * i / 4;
@@ -169,7 +171,7 @@ static bool are_alike(const bend *a, const bend *b) {
 
 /* The side that a curve crosses between its ends; NAN: none. */
 static double crossed_side(const bend *curve) {
-  double a = place(curve->points[0]).x, b = end_of(curve).x;
+  double a = cs_hpoint_place(curve->points[0]).x, b = end_of(curve).x;
   for (int i = 0; i < 2; i++) {
     double side = i * SIDE;
     if ((a < side && b > side) || (a > side && b < side))
@@ -182,8 +184,8 @@ static double crossed_side(const bend *curve) {
 static bool is_within(const bend *curve, bool *outside) {
   double least = INFINITY, most = -INFINITY;
   for (int i = 0; i <= curve->degree; i++) {
-    least = fmin(least, place(curve->points[i]).x);
-    most = fmax(most, place(curve->points[i]).x);
+    least = fmin(least, cs_hpoint_place(curve->points[i]).x);
+    most = fmax(most, cs_hpoint_place(curve->points[i]).x);
   }
   *outside = most <= 0 || least >= SIDE;
   return least >= 0 && most <= SIDE;
@@ -216,7 +218,7 @@ static celspan_status end_arc(making *m, int32_t height) {
 
 /* The arc leaves the frame with a curve, and comes back at its end, or later. */
 static celspan_status put_outside(making *m, const bend *curve) {
-  celspan_point begin = place(curve->points[0]), end = end_of(curve);
+  celspan_point begin = cs_hpoint_place(curve->points[0]), end = end_of(curve);
   int32_t foot = (int32_t)(end.y + 0.5);
   CS_TRY(end_arc(m, (int32_t)(begin.y + 0.5)));
   CS_TRY(cs_sides_add(m->context, m->sides, begin.x + end.x > SIDE, m->arc.top, foot, m->arc.left,
@@ -231,7 +233,7 @@ static celspan_status put_within(making *m, const bend *curve, int halvings) {
   celspan_point points[4];
   if (is_within(curve, &outside) || outside || halvings == 0) {
     for (int i = 0; i <= curve->degree; i++)
-      points[i] = place(curve->points[i]);
+      points[i] = cs_hpoint_place(curve->points[i]);
     return outside              ? put_outside(m, curve)
            : curve->degree == 1 ? append_line(m, points[0], points[1])
                                 : append(m, false, points);
@@ -268,7 +270,7 @@ static celspan_status put_pieces(making *m, const planefile_band *band,
   const planefile_chain *chain = &band->chains[border->chain];
   for (uint32_t i = 0; i < chain->piece_count; i++) {
     bend curve = bend_of(band, &band->pieces[chain->piece + i]);
-    if (end_of(&curve).y <= border->top || place(curve.points[0]).y >= border->foot)
+    if (end_of(&curve).y <= border->top || cs_hpoint_place(curve.points[0]).y >= border->foot)
       continue;
     cut_heights(&curve, border->top, border->foot);
     CS_TRY(put(m, &curve, HALVINGS));

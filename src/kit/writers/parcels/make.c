@@ -149,6 +149,31 @@ celspan_point cs_parcel_end(const cs_parcels *parcels, cs_parcel_walk walk) {
   return point_of(parcels, walk.arc, !walk.is_up);
 }
 
+void cs_parcel_draw_arc(const cs_parcels *parcels, cs_parcel_walk walk,
+                        const cs_parcel_stylus *stylus) {
+  const cs_parcel_arc *arc = &parcels->arcs[walk.arc];
+  for (size_t i = 0; i < arc->curve_count; i++) {
+    size_t at = walk.is_up ? arc->curve_count - 1 - i : i;
+    const cs_parcel_curve *curve = &parcels->curves[arc->curve + at];
+    const celspan_point *p = curve->points;
+    if (curve->is_line)
+      stylus->line(stylus->user, p[walk.is_up ? 0 : 3]);
+    else
+      stylus->curve(stylus->user, walk.is_up ? (celspan_point[3]){p[2], p[1], p[0]} : p + 1);
+  }
+}
+
+void cs_parcel_draw_loop(const cs_parcels *parcels, const cs_parcel_loop *loop,
+                         const cs_parcel_stylus *stylus) {
+  const cs_parcel_walk *walks = &parcels->walks[loop->walk];
+  stylus->move(stylus->user, cs_parcel_begin(parcels, walks[0]));
+  for (size_t k = 0; k < loop->walk_count; k++) {
+    stylus->line(stylus->user, cs_parcel_begin(parcels, walks[k]));
+    cs_parcel_draw_arc(parcels, walks[k], stylus);
+  }
+  stylus->close_path(stylus->user);
+}
+
 /* Returns how many there are. */
 static size_t list_ends(const cs_parcels *parcels, const uint32_t *sets, arc_end *out) {
   size_t count = 0;

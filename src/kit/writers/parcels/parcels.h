@@ -102,3 +102,19 @@ CELSPAN_CHECKED celspan_status cs_parcels_walk(celspan_context *context, cs_parc
 /* The end of a walk that it comes from, and the one that it leads to. */
 celspan_point cs_parcel_begin(const cs_parcels *parcels, cs_parcel_walk walk);
 celspan_point cs_parcel_end(const cs_parcels *parcels, cs_parcel_walk walk);
+
+/* What draws borders. points: after the one where it is. */
+typedef struct cs_parcel_stylus {
+  void *user;
+  void (*move)(void *user, celspan_point to);
+  void (*line)(void *user, celspan_point to);
+  void (*curve)(void *user, const celspan_point points[3]);
+  void (*close_path)(void *user);
+} cs_parcel_stylus;
+
+/* Draws an arc from the beginning of a walk, where the stylus is. */
+void cs_parcel_draw_arc(const cs_parcels *parcels, cs_parcel_walk walk,
+                        const cs_parcel_stylus *stylus);
+/* Draws a loop and closes it. */
+void cs_parcel_draw_loop(const cs_parcels *parcels, const cs_parcel_loop *loop,
+                         const cs_parcel_stylus *stylus);

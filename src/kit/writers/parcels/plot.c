@@ -30,31 +30,16 @@ typedef struct drawing {
 
 /* ---------------------------------------------------------------- paths */
 
-static void put_arc(const drawing *d, cs_parcel_walk walk) {
-  const cs_parcel_arc *arc = &d->parcels.arcs[walk.arc];
-  for (size_t i = 0; i < arc->curve_count; i++) {
-    size_t at = walk.is_up ? arc->curve_count - 1 - i : i;
-    const cs_parcel_curve *curve = &d->parcels.curves[arc->curve + at];
-    const celspan_point *p = curve->points;
-    if (curve->is_line)
-      d->to->line(d->to->user, p[walk.is_up ? 0 : 3]);
-    else
-      d->to->curve(d->to->user, walk.is_up ? (celspan_point[3]){p[2], p[1], p[0]} : p + 1);
-  }
+static cs_parcel_stylus stylus_of(const drawing *d) {
+  const cs_plotter *to = d->to;
+  return (cs_parcel_stylus){to->user, to->move, to->line, to->curve, to->close_path};
 }
 
 /* Loops, closed. */
 static void put_loops(const drawing *d, size_t first, size_t count) {
-  for (size_t i = first; i < first + count; i++) {
-    const cs_parcel_loop *loop = &d->parcels.loops[i];
-    const cs_parcel_walk *walks = &d->parcels.walks[loop->walk];
-    d->to->move(d->to->user, cs_parcel_begin(&d->parcels, walks[0]));
-    for (size_t k = 0; k < loop->walk_count; k++) {
-      d->to->line(d->to->user, cs_parcel_begin(&d->parcels, walks[k]));
-      put_arc(d, walks[k]);
-    }
-    d->to->close_path(d->to->user);
-  }
+  const cs_parcel_stylus stylus = stylus_of(d);
+  for (size_t i = first; i < first + count; i++)
+    cs_parcel_draw_loop(&d->parcels, &d->parcels.loops[i], &stylus);
 }
 
 static cs_plotter_path path_of(const drawing *d, cs_plotter_kind kind, uint32_t number) {
@@ -288,24 +273,16 @@ static celspan_status put_areas(drawing *d) {
 
 /* ---------------------------------------------------------------- under them */
 
-static void put_line(const drawing *d, const cs_under_line *line) {
-  const cs_parcel_walk walk = {line->arc, false};
-  d->to->move(d->to->user, line->is_flat ? line->from : cs_parcel_begin(&d->parcels, walk));
-  if (line->is_flat)
-    d->to->line(d->to->user, line->to);
-  else
-    put_arc(d, walk);
-}
-
 /* All lines of one colour, from the first; returns the first line after them. */
 static size_t put_lines(const drawing *d, size_t first) {
   const cs_under_line *lines = d->under.lines;
   const uint32_t rank = lines[first].rank;
   const cs_plotter_path path = path_of(d, CS_PLOTTER_STROKE, d->under.order[rank]);
+  const cs_parcel_stylus stylus = stylus_of(d);
   size_t at = first;
   d->to->begin_path(d->to->user, &path);
   for (; at < d->under.line_count && lines[at].rank == rank; at++)
-    put_line(d, &lines[at]);
+    cs_under_draw(&d->parcels, &lines[at], &stylus);
   d->to->end_path(d->to->user, &path);
   return at;
 }

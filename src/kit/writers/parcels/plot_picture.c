@@ -1,9 +1,5 @@
 #include "writers/parcels/plot_picture.h"
 
-#include <errno.h>
-#include <string.h>
-
-#include "inside/files.h"
 #include "inside/sinks.h"
 
 static celspan_status draw_png(celspan_context *context, const char *path,
@@ -20,24 +16,10 @@ static celspan_status draw_png(celspan_context *context, const char *path,
   return picture->draw(picture, context, &sink);
 }
 
-/* The bytes of a file that is being written. */
-static celspan_status put_file(celspan_context *context, const char *path, cs_file *from,
-                               const cs_plotter *to) {
-  unsigned char bytes[3 * 1024];
-  const char *name;
-  CS_TRY(cs_file_temporary(from, context, &name));
-  int descriptor = cs_open_to_read(name);
-  ssize_t got = descriptor < 0 ? -1 : 0;
-  for (off_t at = 0; descriptor >= 0; at += got) {
-    got = cs_open_read_at(descriptor, bytes, sizeof bytes, at);
-    if (got <= 0)
-      break;
-    to->bytes(to->user, bytes, (size_t)got);
-  }
-  int error = errno;
-  if (descriptor >= 0)
-    close(descriptor);
-  return got < 0 ? cs_fail(context, CELSPAN_OUTPUT, "%s: %s", path, strerror(error)) : CELSPAN_OK;
+static celspan_status put_bytes(void *user, const void *bytes, size_t size) {
+  const cs_plotter *to = user;
+  to->bytes(to->user, bytes, size);
+  return CELSPAN_OK;
 }
 
 static celspan_status put_png(celspan_context *context, const char *path,
@@ -46,7 +28,7 @@ static celspan_status put_png(celspan_context *context, const char *path,
   CS_TRY(cs_file_create(context, NULL, path, &png));
   celspan_status status = draw_png(context, path, picture, png);
   if (status == CELSPAN_OK)
-    status = put_file(context, path, png, to);
+    status = cs_file_again(png, context, put_bytes, (void *)to);
   cs_file_discard(png, context);
   return status;
 }

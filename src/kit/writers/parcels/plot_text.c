@@ -1,11 +1,12 @@
 #include "writers/parcels/plot_text.h"
 
-#include <inttypes.h>
 #include <math.h>
 #include <stdarg.h>
-#include <stdio.h>
 
-enum { TEXT = 256, NUMBER = 48, DIGITS_MOST = 9 };
+#include "common/address.h"
+#include "common/steps.h"
+
+enum { TEXT = 256, DIGITS_MOST = 9 };
 
 /* ---------------------------------------------------------------- numbers */
 
@@ -24,27 +25,16 @@ void cs_plot_put(cs_plot_text *out, const char *format, ...) {
     cs_plot_put_bytes(out, text, (size_t)length < sizeof text ? (size_t)length : sizeof text - 1);
 }
 
-static int64_t power_of_ten(int digits) {
-  int64_t power = 1;
+static double power_of_ten(int digits) {
+  double power = 1;
   for (int i = 0; i < digits; i++)
     power *= 10;
   return power;
 }
 
-/* Steps of a grid as a number, without a zero before the point. */
 static void put_steps(cs_plot_text *out, int64_t steps, int digits) {
-  char text[NUMBER];
-  const int64_t grid = power_of_ten(digits);
-  uint64_t size = steps < 0 ? -(uint64_t)steps : (uint64_t)steps;
-  uint64_t whole = size / (uint64_t)grid, part = size % (uint64_t)grid;
-  int length = snprintf(text, sizeof text, "%s", steps < 0 ? "-" : "");
-  if (whole > 0 || part == 0)
-    length += snprintf(text + length, sizeof text - (size_t)length, "%" PRIu64, whole);
-  if (part > 0)
-    length += snprintf(text + length, sizeof text - (size_t)length, ".%0*" PRIu64, digits, part);
-  while (part > 0 && text[length - 1] == '0')
-    length--;
-  cs_plot_put_bytes(out, text, (size_t)length);
+  char text[CS_STEPS_SIZE];
+  cs_plot_put_bytes(out, text, cs_steps_put(text, steps, digits, false));
 }
 
 static int64_t round_to(double number, double grid) {
@@ -55,7 +45,7 @@ static int64_t round_to(double number, double grid) {
 
 void cs_plot_put_number(cs_plot_text *out, double number, int digits) {
   digits = digits < DIGITS_MOST ? digits : DIGITS_MOST;
-  put_steps(out, round_to(number, (double)power_of_ten(digits)), digits);
+  put_steps(out, round_to(number, power_of_ten(digits)), digits);
 }
 
 int64_t cs_plot_round(const cs_plot_text *out, double coordinate) {
@@ -65,7 +55,7 @@ int64_t cs_plot_round(const cs_plot_text *out, double coordinate) {
 /* ---------------------------------------------------------------- paths */
 
 void cs_plot_begin_path(cs_plot_text *out) {
-  out->grid = (double)power_of_ten(out->precision);
+  out->grid = power_of_ten(out->precision);
   out->x = out->y = 0;
   out->command = 0;
 }
@@ -128,14 +118,11 @@ void cs_plot_close(cs_plot_text *out) {
 /* ---------------------------------------------------------------- bytes */
 
 void cs_plot_put_base64(cs_plot_text *out, const unsigned char *bytes, size_t size) {
-  static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  for (size_t i = 0; i < size; i += 3) {
-    uint32_t group = 0;
-    char text[4];
-    for (size_t k = 0; k < 3; k++)
-      group = group << 8 | (i + k < size ? bytes[i + k] : 0);
-    for (size_t k = 0; k < 4; k++)
-      text[k] = i + k <= size ? digits[group >> (18 - 6 * k) & 63] : '=';
-    cs_plot_put_bytes(out, text, 4);
+  enum { PART = 192 };
+  char text[PART / 3 * 4];
+  for (size_t i = 0; i < size; i += PART) {
+    size_t part = size - i < PART ? size - i : PART;
+    cs_address_digits(bytes + i, part, text);
+    cs_plot_put_bytes(out, text, (part + 2) / 3 * 4);
   }
 }

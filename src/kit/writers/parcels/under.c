@@ -289,6 +289,16 @@ celspan_status cs_under_make(celspan_context *context, const cs_parcels *parcels
   return status;
 }
 
+void cs_under_draw(const cs_parcels *parcels, const cs_under_line *line,
+                   const cs_parcel_stylus *stylus) {
+  const cs_parcel_walk walk = {line->arc, false};
+  stylus->move(stylus->user, line->is_flat ? line->from : cs_parcel_begin(parcels, walk));
+  if (line->is_flat)
+    stylus->line(stylus->user, line->to);
+  else
+    cs_parcel_draw_arc(parcels, walk, stylus);
+}
+
 void cs_under_finish(cs_under *under, cs_memory *memory) {
   cs_mem_free(memory, under->order, under->fill_count * sizeof *under->order);
   cs_mem_free(memory, under->ranks, under->fill_count * sizeof *under->ranks);

@@ -33,4 +33,7 @@ static inline bool cs_under_suits(const cs_fill *fill) {
  * out: must be finished in any case. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_under_make(celspan_context *context, const cs_parcels *parcels,
                                              double thin, cs_under *out);
+/* Draws a line, which stays open. */
+void cs_under_draw(const cs_parcels *parcels, const cs_under_line *line,
+                   const cs_parcel_stylus *stylus);
 void cs_under_finish(cs_under *under, cs_memory *memory);

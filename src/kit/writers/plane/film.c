@@ -43,7 +43,7 @@ static celspan_status open_writer(cs_plane_film *film, double frames_second) {
                                       .height = film->desc.height,
                                       .write = write_bytes,
                                       .user = film,
-                                      .resize = cs_plane_resize,
+                                      .resize = cs_mem_resize_of,
                                       .resize_user = film->context->memory,
                                       .frames_second = frames_second,
                                       .is_coded = film->desc.depth == 8,

@@ -27,10 +27,6 @@ CS_DESCRIBE(celspan_plane_desc, height, .depth = 16)
 
 #define BYTES_MOST ((uint64_t)1 << 30) /* of a file */
 
-void *cs_plane_resize(void *user, void *block, size_t old_size, size_t new_size) {
-  return cs_mem_resize(user, block, old_size, new_size);
-}
-
 celspan_status cs_plane_report(celspan_context *context, planefile_status status) {
   if (status == PLANEFILE_OK)
     return CELSPAN_OK;
@@ -89,7 +85,7 @@ static planefile_status load(celspan_plane *plane, uint32_t frame, planefile_fau
   planefile_source source = {.read = read_bytes,
                              .user = plane,
                              .size = plane->size,
-                             .resize = cs_plane_resize,
+                             .resize = cs_mem_resize_of,
                              .resize_user = plane->memory};
   return planefile_read_frame(&source, frame, 0, PLANEFILE_SIDE, &plane->plane, fault);
 }
@@ -200,7 +196,7 @@ celspan_status cs_plane_record(celspan_context *context, const celspan_exposure 
   *out = (cs_plane_frame){.record.grid = grid};
   CS_TRY(check_desc(context, desc, count));
   if (desc->depth == 8) {
-    rounding = planefile_rounding_create(cs_plane_resize, context->memory);
+    rounding = planefile_rounding_create(cs_mem_resize_of, context->memory);
     if (!rounding)
       return cs_fail_memory(context);
   }
@@ -227,7 +223,7 @@ static celspan_status write_record(celspan_context *context, cs_recording *made,
                                       .height = given->height,
                                       .write = append,
                                       .user = &a,
-                                      .resize = cs_plane_resize,
+                                      .resize = cs_mem_resize_of,
                                       .resize_user = context->memory,
                                       .is_coded = given->depth == 8};
   planefile_band band = cs_record_plane(made);

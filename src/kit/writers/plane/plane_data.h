@@ -45,5 +45,3 @@ CELSPAN_CHECKED celspan_status cs_plane_record(celspan_context *context,
                                                const celspan_plane_desc *desc, planefile_grid grid,
                                                cs_plane_frame *out);
 void cs_plane_frame_finish(cs_plane_frame *frame, cs_memory *memory);
-/* The memory of a context for the subproject. user: a cs_memory. */
-void *cs_plane_resize(void *user, void *block, size_t old_size, size_t new_size);

@@ -43,10 +43,6 @@ static bool read_bytes(void *user, uint64_t offset, void *bytes, size_t size) {
   return read_all(file->descriptor, offset, bytes, size);
 }
 
-static void *resize(void *user, void *block, size_t old_size, size_t new_size) {
-  return cs_mem_resize(user, block, old_size, new_size);
-}
-
 static celspan_status report(const cs_span_reader *file, spanfile_status status,
                              const spanfile_fault *fault) {
   if (status == SPANFILE_OK)
@@ -81,7 +77,7 @@ static celspan_status open_file(cs_span_reader *file) {
   spanfile_source source = {.read = read_bytes,
                             .user = file,
                             .size = file->bytes,
-                            .resize = resize,
+                            .resize = cs_mem_resize_of,
                             .resize_user = file->context->memory};
   spanfile_fault fault;
   CS_TRY(report(file, spanfile_reader_create(&source, &file->reader, &fault), &fault));

@@ -147,8 +147,7 @@ local function values_of(maps, anchor)
     before = { turn, across, down }
     turns[i], scales[i] = { turn }, { 100 * across, 100 * down }
     skews[i] = { keys.is_upright(map) and 0 or -math.deg(math.atan(slope(map))) }
-    places[i] = { map[1] * anchor[1] + map[2] * anchor[2] + map[3],
-                  map[4] * anchor[1] + map[5] * anchor[2] + map[6] }
+    places[i] = { affine.apply(map, anchor[1], anchor[2]) }
   end
   return turns, scales, places, skews
 end

@@ -11,17 +11,6 @@ local shapes = {}
 
 -- ---------------------------------------------------------------- outlines
 
---- A contour's points, moved by a map.
-local function points_of(contour, map)
-  local points = {}
-  local a, b, c, d, e, f = table.unpack(map)
-  for i = 1, #contour, 2 do
-    local x, y = contour[i], contour[i + 1]
-    points[i], points[i + 1] = a * x + b * y + c, d * x + e * y + f
-  end
-  return points
-end
-
 --- Gives the cubics that are straight lines in even steps handles without length, as lines have.
 local function straighten(points)
   for at = 1, #points - 6, 6 do
@@ -42,7 +31,7 @@ end
 --- A contour, a list of x, y and six numbers for each cubic, as a shape, which is closed unless
 --- is_open.
 local function contour_of(contour, map, digits, is_open)
-  local points, last = points_of(contour, map), #contour
+  local points, last = affine.move(map, contour), #contour
   straighten(points)
   local is_back = not is_open and last > 2 and contour[1] == contour[last - 1]
     and contour[2] == contour[last]
@@ -75,18 +64,16 @@ local CENTRE = placed_at(IDENTITY)
 local function moved(fill, map)
   if fill.kind == "flat" then return fill end
   local x, y, u, v = table.unpack(fill.points)
-  local a, b, c, d, e, f = table.unpack(map)
-  local function at(px, py) return a * px + b * py + c, d * px + e * py + f end
-  local ax, ay = at(x, y)
-  local bx, by = at(u, v)
+  local ax, ay = affine.apply(map, x, y)
+  local bx, by = affine.apply(map, u, v)
   if fill.kind == "linear" then
-    local cx, cy = at(x - (v - y), y + (u - x))
+    local cx, cy = affine.apply(map, x - (v - y), y + (u - x))
     local sx, sy = cx - ax, cy - ay
     local along = ((bx - ax) * sx + (by - ay) * sy) / math.max(sx * sx + sy * sy, 1e-300)
     bx, by = bx - along * sx, by - along * sy
   end
   return { kind = fill.kind, coded = fill.coded, stops = fill.stops, points = { ax, ay, bx, by },
-           radius = (fill.radius or 0) * math.sqrt(a * a + d * d) }
+           radius = (fill.radius or 0) * math.sqrt(map[1] * map[1] + map[4] * map[4]) }
 end
 
 local function is_round(map)
@@ -169,8 +156,7 @@ function shapes.box(data)
     each(data, IDENTITY, 1, function(outline, map)
       for _, contour in ipairs(outline.contours) do
         for i = 1, #contour, 2 do
-          local x = map[1] * contour[i] + map[2] * contour[i + 1] + map[3]
-          local y = map[4] * contour[i] + map[5] * contour[i + 1] + map[6]
+          local x, y = affine.apply(map, contour[i], contour[i + 1])
           left, top = math.min(left, x), math.min(top, y)
           right, bottom = math.max(right, x), math.max(bottom, y)
         end

@@ -37,8 +37,6 @@ void cs_svg_marks_finish(cs_svg_marks *marks, cs_memory *memory) {
 
 /* ---------------------------------------------------------------- directions */
 
-static celspan_point plain(cs_hpoint p) { return (celspan_point){p.x / p.w, p.y / p.w}; }
-
 /* The unit vector from a to b; false if they are the same point. */
 static bool direction(celspan_point a, celspan_point b, celspan_point *out) {
   double x = b.x - a.x, y = b.y - a.y, length = cs_number_length(x, y);
@@ -54,8 +52,9 @@ static bool end_direction(const cs_outline *outline, size_t piece, bool at_end,
   const cs_hpoint *points = outline->points + outline->starts[piece];
   int degree = outline->degrees[piece];
   for (int i = 1; i <= degree; i++)
-    if (at_end ? direction(plain(points[degree - i]), plain(points[degree]), out)
-               : direction(plain(points[0]), plain(points[i]), out))
+    if (at_end
+            ? direction(cs_hpoint_place(points[degree - i]), cs_hpoint_place(points[degree]), out)
+            : direction(cs_hpoint_place(points[0]), cs_hpoint_place(points[i]), out))
       return true;
   return false;
 }
@@ -186,19 +185,20 @@ static celspan_status mark_contour(marking *m, size_t begin, size_t end, bool cl
   bool is_last = end == outline->piece_count;
   celspan_point first = near_direction(m, begin, end, begin, false);
   celspan_point last = near_direction(m, begin, end, end, true);
-  vertex v = {plain(outline->points[outline->starts[begin]]), closes ? last : (celspan_point){0, 0},
-              first};
+  vertex v = {cs_hpoint_place(outline->points[outline->starts[begin]]),
+              closes ? last : (celspan_point){0, 0}, first};
   CS_TRY(add_mark(m, begin == 0 ? START : MID, &v));
   for (size_t piece = begin + 1; piece < end; piece++) {
     if (is_inner(m, piece))
       continue;
-    v = (vertex){plain(outline->points[outline->starts[piece]]),
+    v = (vertex){cs_hpoint_place(outline->points[outline->starts[piece]]),
                  near_direction(m, begin, end, piece, true),
                  near_direction(m, begin, end, piece, false)};
     CS_TRY(add_mark(m, MID, &v));
   }
-  v = (vertex){plain(outline->points[outline->starts[end - 1] + outline->degrees[end - 1]]), last,
-               closes ? first : (celspan_point){0, 0}};
+  v = (vertex){
+      cs_hpoint_place(outline->points[outline->starts[end - 1] + outline->degrees[end - 1]]), last,
+      closes ? first : (celspan_point){0, 0}};
   return add_mark(m, is_last ? END : MID, &v);
 }
 

@@ -5,6 +5,8 @@
 #include <string.h>
 #include <strings.h>
 
+#include "common/utf8.h"
+
 #define ELEMENT(name, text) text
 static const char *const elements[] = {CS_SVG_ELEMENT_LIST(ELEMENT)};
 
@@ -298,16 +300,6 @@ static cs_hash hash_name(const char *name) {
   return cs_hash_end(hash);
 }
 
-/* The length of the beginning of a value that is shown: it is cut off after a whole character. */
-static int shown_size(const char *value, size_t most) {
-  size_t size = 0;
-  while (value[size] && size < most)
-    size++;
-  while (value[size] && size > 0 && ((unsigned char)value[size] & 0xc0) == 0x80)
-    size--;
-  return (int)size;
-}
-
 celspan_status cs_svg_unread_add(cs_svg_unread *list, celspan_context *context, cs_arena *arena,
                                  uint32_t line, const char *name, const char *value) {
   size_t there;
@@ -319,9 +311,10 @@ celspan_status cs_svg_unread_add(cs_svg_unread *list, celspan_context *context, 
   if (!text)
     return CELSPAN_NO_MEMORY;
   if (value)
-    snprintf(text, TEXT, "%.*s \"%.*s\"", shown_size(name, 40), name, shown_size(value, 60), value);
+    snprintf(text, TEXT, "%.*s \"%.*s\"", (int)cs_utf8_cut(name, 40), name,
+             (int)cs_utf8_cut(value, 60), value);
   else
-    snprintf(text, TEXT, "%.*s", shown_size(name, 60), name);
+    snprintf(text, TEXT, "%.*s", (int)cs_utf8_cut(name, 60), name);
   CS_TRY(cs_hash_table_add(&list->names, context, hash_name(name), list->count));
   list->items[list->count++] = (cs_svg_unread_name){text, line};
   return CELSPAN_OK;

@@ -1,8 +1,9 @@
 /* A colour profile of sRGB. */
-#include "writers/photoshop/bytes.h"
+#include "writers/apart/photoshop.h"
 
-#include <stdbool.h>
 #include <string.h>
+
+#include "common/bytes.h"
 
 /* Numbers are in units of 1/65536. The primaries of sRGB are adapted from its white, D65, to D50 by
  * Bradford's matrix, and their sum is exactly D50. */
@@ -32,7 +33,7 @@ static const tag tags[] = {
 enum { HEADER = 128, TAGS = sizeof tags / sizeof *tags };
 
 static unsigned char *store(unsigned char *at, uint32_t number, int bytes) {
-  return cs_big_endian_store(at, number, bytes);
+  return cs_bytes_put_big(at, number, bytes);
 }
 
 static unsigned char *store_name(unsigned char *at, const char *name) {

@@ -1,16 +1,19 @@
 /* Everything of a document but its pixels. */
-#include "writers/photoshop/photoshop.h"
+#include "writers/apart/photoshop.h"
 
 #include <string.h>
 
 #include "common/blend_names.h"
-#include "writers/photoshop/bytes.h"
+#include "common/bytes.h"
+
+/* The most pixels a side, and the steps of opacities. */
+enum { SIDE = 30000, STEPS = 255 };
 
 /* The most bytes of a record, and of everything before the records. */
 enum { RECORD = 1200, FRONT = 1024 + CS_SRGB_PROFILE };
 
 static unsigned char *store(unsigned char *at, uint32_t number, int bytes) {
-  return cs_big_endian_store(at, number, bytes);
+  return cs_bytes_put_big(at, number, bytes);
 }
 
 static unsigned char *store_text(unsigned char *at, const char *text) {
@@ -80,22 +83,22 @@ static unsigned char *store_names(unsigned char *at, const char *name) {
 }
 
 /* A layer covers the whole picture. */
-static unsigned char *store_record(unsigned char *at, const cs_photoshop *document,
-                                   const cs_photoshop_layer *layer) {
+static unsigned char *store_record(unsigned char *at, const cs_photoshop *document, size_t index) {
+  const cs_apart_layer *layer = &document->base.apart.layers[index];
   enum { VISIBLE = 8 << 8 }; /* 8: the bit that says whether its pixels count has a meaning */
   at = store(store(at, 0, 4), 0, 4);
-  at = store(at, (uint32_t)document->height, 4);
-  at = store(at, (uint32_t)document->width, 4);
+  at = store(at, (uint32_t)document->base.height, 4);
+  at = store(at, (uint32_t)document->base.width, 4);
   at = store(at, CS_PHOTOSHOP_CHANNELS, 2);
   for (int c = 0; c < CS_PHOTOSHOP_CHANNELS; c++)
-    at = store(store(at, (uint32_t)(c - 1), 2), layer->sizes[c], 4); /* -1: alpha */
+    at = store(store(at, (uint32_t)(c - 1), 2), document->sizes[index][c], 4); /* -1: alpha */
   at = store_text(at, "8BIM");
   at = store_text(at, cs_blend_photoshop(layer->blend));
-  at = store(at, (uint32_t)(layer->opacity * 255 + 0.5), 1);
+  at = store(at, (uint32_t)(layer->opacity * STEPS + 0.5), 1);
   at = store(at, VISIBLE, 3); /* not clipped to the layer behind it; a byte of 0 at the end */
   unsigned char *start = at + 4;
   at = store(store(start, 0, 4), 0, 4); /* no mask, and no conditions of blending */
-  at = store_names(at, layer->name);
+  at = store_names(at, cs_apart_title(layer));
   store_length(start, at);
   return at;
 }
@@ -103,7 +106,7 @@ static unsigned char *store_record(unsigned char *at, const cs_photoshop *docume
 /* ---------------------------------------------------------------- the front */
 
 static bool is_deep(const cs_photoshop *document) {
-  return document->coding.depth == CELSPAN_DEPTH_16;
+  return document->base.coding.depth == CELSPAN_DEPTH_16;
 }
 
 static unsigned char *store_header(unsigned char *at, const cs_photoshop *document) {
@@ -112,8 +115,8 @@ static unsigned char *store_header(unsigned char *at, const cs_photoshop *docume
   at = store(at, VERSION, 2);
   at = store(store(at, 0, 4), 0, 2);
   at = store(at, document->is_opaque ? 3 : 4, 2);
-  at = store(at, (uint32_t)document->height, 4);
-  at = store(at, (uint32_t)document->width, 4);
+  at = store(at, (uint32_t)document->base.height, 4);
+  at = store(at, (uint32_t)document->base.width, 4);
   at = store(at, is_deep(document) ? 16 : 8, 2);
   at = store(at, RGB, 2);
   return store(at, 0, 4); /* no table of colours */
@@ -133,7 +136,7 @@ static unsigned char *store_profile(unsigned char *at) {
 
 /* What made the file, and that its merged picture is real. */
 static unsigned char *store_maker(unsigned char *at, const cs_photoshop *document) {
-  const char *maker = cs_context_maker(document->context);
+  const char *maker = cs_context_maker(document->base.context);
   unsigned char *start = begin_resource(at, 1057);
   at = store(store(start, 1, 4), 1, 1);
   at = store(store_unicode(store_unicode(at, maker), maker), 1, 4);
@@ -160,30 +163,25 @@ static unsigned char *store_lengths(unsigned char *at, const cs_photoshop *docum
 
 /* A number below 0 says that the first channel behind the colours is the merged picture's alpha. */
 static unsigned char *store_number(unsigned char *at, const cs_photoshop *document) {
-  uint32_t count = (uint32_t)document->count;
+  uint32_t count = (uint32_t)document->base.apart.count;
   return store(at, document->is_opaque ? count : 0 - count, 2);
 }
 
 /* Writes all up to the channels, with the lengths that are known. */
 static celspan_status put_front(cs_photoshop *document) {
-  celspan_context *context = document->context;
-  size_t size = FRONT + document->count * RECORD;
+  celspan_context *context = document->base.context;
+  size_t size = FRONT + document->base.apart.count * RECORD;
   unsigned char *front;
   CS_TRY(CS_MAKE(context, front, size));
   unsigned char *at = store_resources(store_header(front, document), document);
   at = store_lengths(at, document);
   document->start = (uint64_t)(at - front);
   at = store_number(at, document);
-  for (size_t i = 0; i < document->count; i++)
-    at = store_record(at, document, &document->layers[i]);
+  for (size_t i = 0; i < document->base.apart.count; i++)
+    at = store_record(at, document, i);
   celspan_status status = cs_file_write_at(document->file, context, 0, front, (size_t)(at - front));
   cs_mem_free(context->memory, front, size);
   return status;
-}
-
-celspan_status cs_photoshop_begin(cs_photoshop *document) {
-  CS_TRY(cs_file_create(document->context, NULL, document->path, &document->file));
-  return put_front(document);
 }
 
 static celspan_status end_layers(cs_photoshop *document) {
@@ -192,15 +190,52 @@ static celspan_status end_layers(cs_photoshop *document) {
   size_t padding = (size_t)(0 - (end - document->start)) % 4;
   document->end = end + padding;
   /* Behind the list of 8 bits, the masks of all layers have no bytes. */
-  return cs_file_write(document->file, document->context, zeros,
+  return cs_file_write(document->file, document->base.context, zeros,
                        padding + (is_deep(document) ? 0 : 4));
 }
 
-celspan_status cs_photoshop_end(cs_photoshop *document, celspan_status outcome) {
+/* ---------------------------------------------------------------- the format */
+
+static celspan_status check(cs_apart_writing *base) {
+  return base->width <= SIDE && base->height <= SIDE
+             ? CELSPAN_OK
+             : cs_fail(base->context, CELSPAN_LIMIT,
+                       "%s: the frame has %d x %d pixels, and a Photoshop document at most %d a "
+                       "side: write OpenEXR or PNG files, or a smaller --size",
+                       base->path, (int)base->width, (int)base->height, SIDE);
+}
+
+static celspan_status begin(cs_apart_writing *base) {
+  cs_photoshop *document = (cs_photoshop *)base;
+  document->is_opaque = celspan_frame_is_opaque(&base->frame);
+  CS_TRY(CS_MAKE(base->context, document->sizes, base->apart.count + 1));
+  CS_TRY(cs_file_create(base->context, NULL, base->path, &document->file));
+  return put_front(document);
+}
+
+static celspan_status put(cs_apart_writing *base, const celspan_frame_desc *picture, size_t index) {
+  celspan_sink sink;
+  CS_TRY(cs_photoshop_sink((cs_photoshop *)base, index, &sink));
+  return cs_apart_render(base, picture, &sink);
+}
+
+static celspan_status end(cs_apart_writing *base, celspan_status outcome) {
+  cs_photoshop *document = (cs_photoshop *)base;
   if (outcome == CELSPAN_OK)
     outcome = end_layers(document);
   outcome = cs_photoshop_end_merged(document, outcome);
   if (outcome == CELSPAN_OK)
     outcome = put_front(document);
-  return document->file ? cs_file_end(document->file, document->context, outcome) : outcome;
+  cs_mem_free(base->context->memory, document->sizes,
+              (base->apart.count + 1) * sizeof *document->sizes);
+  return document->file ? cs_file_end(document->file, base->context, outcome) : outcome;
 }
+
+const cs_apart_format cs_apart_psd = {.size = sizeof(cs_photoshop),
+                                      .depth = CELSPAN_DEPTH_8,
+                                      .has_mode = cs_blend_is_photoshop,
+                                      .steps = STEPS,
+                                      .check = check,
+                                      .begin = begin,
+                                      .put = put,
+                                      .end = end};

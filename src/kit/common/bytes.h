@@ -21,3 +21,15 @@ static inline uint32_t cs_bytes_little32(const unsigned char *at) {
 static inline uint64_t cs_bytes_little64(const unsigned char *at) {
   return (uint64_t)cs_bytes_little32(at + 4) << 32 | cs_bytes_little32(at);
 }
+
+/* These store a number of up to 8 bytes, and return where it ends. */
+static inline unsigned char *cs_bytes_put_big(unsigned char *at, uint64_t number, int bytes) {
+  for (int i = bytes; i-- > 0;)
+    *at++ = (unsigned char)(number >> 8 * i);
+  return at;
+}
+static inline unsigned char *cs_bytes_put_little(unsigned char *at, uint64_t number, int bytes) {
+  for (int i = 0; i < bytes; i++)
+    *at++ = (unsigned char)(number >> 8 * i);
+  return at;
+}
