@@ -2,9 +2,8 @@
  *
  *   main -> request (the options) -> a verb -> report (exit code, one line of error)
  *
- * Nothing is loaded that the verb does not need. A Lua state is made by the verbs that are written
- * in Lua or run a script; OpenImageIO is loaded for the first picture, in another process
- * (plugins/isolate/zygote.h).
+ * Nothing is loaded that the verb does not need: a service is made when the verb asks for it;
+ * OpenImageIO is loaded for the first picture, in another process (plugins/isolate/zygote.h).
  */
 #include <errno.h>
 #include <fcntl.h>
@@ -54,12 +53,6 @@ static cs_exit refuse_verb(const char *name) {
   return cs_report_usage("unknown verb '%s' ('celspan help' lists them)", name);
 }
 
-/* A verb in C runs in Lua with --table, and for an output that a part in Lua writes. */
-static bool is_in_lua(const cs_request *request) {
-  return !request->verb->run || cs_request_has(request, "--table") ||
-         (request->output && request->output->part);
-}
-
 /* Standard input can be read only once, and some verbs run a script several times. */
 static cs_exit read_script(celspan_context *context, cs_request *request, cs_text_file *out) {
   const bool runs_again = request->verb->runs_again || cs_request_has(request, "--table");
@@ -96,8 +89,7 @@ static cs_exit run(cs_request *request) {
   if (outcome == CS_EXIT_OK)
     outcome = read_script(context, request, &script);
   if (outcome == CS_EXIT_OK)
-    outcome = is_in_lua(request) ? cs_lua_verb_run(context, request)
-                                 : request->verb->run(context, request);
+    outcome = cs_lua_verb_run(context, request);
   cs_text_file_close(context, &script);
   cs_spaces_close(&spaces);
   celspan_context_destroy(context);

@@ -34,7 +34,7 @@ words.list = {
                "tools/trace/colours" } },
   { word = "level", means = "a picture halved that many times; how loud a sound is",
     places = { "model/pictures/", "engine/sample/", "tools/track/", "writers/tiles/",
-               "program/tiles", "program/options/", "model/scene/",
+               "program/services/shown", "program/options/", "model/scene/",
                "plugins/sound/spectrum" } },
   { word = "slab", means = "a range of heights inside a row", places = { "engine/area/" } },
   { word = "segment", means = "a straight or parabolic piece of a boundary, or of a deflate stream",

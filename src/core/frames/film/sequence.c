@@ -264,21 +264,6 @@ bool cs_sequence_is_run(const cs_sequence *sequence) {
   return true;
 }
 
-celspan_status cs_sequence_retime(celspan_context *context, const cs_sequence *played, double ratio,
-                                  cs_sequence *out) {
-  double count = fmax(1, floor((double)played->count * ratio + 0.5));
-  *out = (cs_sequence){.memory = context->memory};
-  if (!(count <= MOST_FRAMES))
-    return celspan_context_fail(context, CELSPAN_LIMIT, "more than %d frames", MOST_FRAMES);
-  CS_TRY(CS_RESERVE(context, out->frames, out->capacity, (size_t)count));
-  for (; out->count < (size_t)count; out->count++) {
-    /* A frame begins at its time, however the quotient is rounded. */
-    size_t index = (size_t)((double)out->count / ratio + 1e-6);
-    out->frames[out->count] = played->frames[index < played->count ? index : played->count - 1];
-  }
-  return CELSPAN_OK;
-}
-
 void cs_sequence_finish(cs_sequence *sequence) {
   cs_mem_free(sequence->memory, sequence->frames, sequence->capacity * sizeof *sequence->frames);
   *sequence = (cs_sequence){0};

@@ -9,8 +9,7 @@
  *   pattern  shot.####.png or shot.%04d.png: the last run of # in the name, or one %d; padded with
  *            zeros, growing past its width when the number needs it
  *
- * INVARIANT: no frame occurs twice in a sequence, and its order is that of the list; unless it was
- * made for another rate of frames.
+ * INVARIANT: a sequence that was read has the order of its list, and no frame twice.
  */
 #pragma once
 
@@ -30,12 +29,6 @@ CELSPAN_CHECKED celspan_status cs_sequence_parse(celspan_context *context, const
 /* The frames first, first + 1, ... of a whole film. Otherwise as above. */
 CELSPAN_CHECKED celspan_status cs_sequence_count(celspan_context *context, int64_t first,
                                                  int64_t count, cs_sequence *out);
-/* The frames that are seen, at the times of frames of another rate, while those of `played` are
- * shown one after the other: some are left out, or occur several times in a row. ratio: frames of
- * the new rate for each frame, above 0. out: new. Errors: LIMIT, NO_MEMORY. */
-CELSPAN_CHECKED celspan_status cs_sequence_retime(celspan_context *context,
-                                                  const cs_sequence *played, double ratio,
-                                                  cs_sequence *out);
 void cs_sequence_finish(cs_sequence *sequence);
 /* Whether each frame is the one after the frame before it in the list. */
 bool cs_sequence_is_run(const cs_sequence *sequence);

@@ -11,15 +11,10 @@
 #include "inside/scene.h"
 #include "lua/bind/host.h"
 #include "lua/bind/lua_error.h"
-#include "lua/bind/suggest.h"
 #include "lua/bind/userdata.h"
-#include "process/interrupt.h"
 #include "program/report/verb_text.h"
 
-#define MOST_NAMES 200 /* the most names that are remembered for the message */
-#define SHOWN_NAMES 12
 #define SAME_WEIGHT 1e-6
-#define MOST_FRAMES 10000 /* the most frames in the rest of the film that are searched for a name */
 
 cs_frame_change cs_change_read(const cs_request *request) {
   cs_frame_change change = {.cel = cs_request_text(request, "--cel")};
@@ -145,89 +140,6 @@ celspan_status cs_change_frame(celspan_context *context, const cs_frame_change *
   for (size_t i = 0; i < frame->count; i++)
     CS_TRY(change_one(context, change, &frame->exposures[i]));
   return change->has_background ? fill_ground(context, change, frame) : CELSPAN_OK;
-}
-
-/* ---------------------------------------------------------------- unknown names */
-
-typedef struct name_list {
-  const char *wanted;
-  struct listed {
-    cs_mark mark; /* a reference */
-    int distance;
-  } names[MOST_NAMES];
-  size_t count;
-  bool is_found, has_more;
-} name_list;
-
-static void list_name(name_list *list, cs_mark mark) {
-  const char *name = cs_mark_name(mark);
-  for (size_t i = 0; i < list->count; i++)
-    if (strcmp(cs_mark_name(list->names[i].mark), name) == 0)
-      return;
-  list->has_more |= list->count == MOST_NAMES;
-  if (list->count < MOST_NAMES)
-    list->names[list->count++] =
-        (struct listed){cs_mark_keep(mark), cs_suggest_distance(list->wanted, name)};
-}
-
-static void list_frame(name_list *list, const cs_film_frame *frame) {
-  for (size_t e = 0; e < frame->count; e++) {
-    const celspan_rostrum *rostrum = frame->exposures[e].rostrum;
-    for (size_t i = 0; i < rostrum->cel_count; i++) {
-      if (!rostrum->cels[i]->mark.name)
-        continue;
-      list->is_found |= is_wanted(rostrum->cels[i], list->wanted);
-      list_name(list, rostrum->cels[i]->mark);
-    }
-  }
-}
-
-static int compare(const void *a, const void *b) {
-  const struct listed *left = a, *right = b;
-  return left->distance != right->distance
-             ? left->distance - right->distance
-             : strcmp(cs_mark_name(left->mark), cs_mark_name(right->mark));
-}
-
-static cs_exit report(name_list *list) {
-  char text[1024] = "";
-  if (list->count == 0)
-    return cs_report_usage("--cel %s: no cel of the film has a name; give it one with "
-                           "cel:named(\"%s\")",
-                           list->wanted, list->wanted);
-  qsort(list->names, list->count, sizeof list->names[0], compare);
-  size_t shown = list->count < SHOWN_NAMES ? list->count : SHOWN_NAMES, length = 0;
-  for (size_t i = 0; i < shown && length < sizeof text; i++)
-    length += (size_t)snprintf(text + length, sizeof text - length, "%s%s", i ? ", " : "",
-                               cs_mark_name(list->names[i].mark));
-  bool has_more = list->has_more || shown < list->count || length >= sizeof text;
-  return cs_report_usage("--cel %s: no cel of the film has this name; its names are %s%s",
-                         list->wanted, text, has_more ? " and others" : "");
-}
-
-static void search_frame(name_list *list, cs_script *script, int64_t number) {
-  if (cs_interrupt_signal())
-    list->is_found = true;
-  else if (cs_script_try(script, number) == CELSPAN_OK)
-    list_frame(list, &script->frame);
-  else
-    list->is_found = true; /* the failure of this frame is reported when the frame is made */
-}
-
-cs_exit cs_change_refuse(cs_script *script, const cs_frame_change *change,
-                         const cs_sequence *frames) {
-  name_list list = {.wanted = change->cel};
-  cs_exit outcome = CS_EXIT_OK;
-  list.is_found = !change->cel;
-  for (size_t i = 0; i < frames->count && !list.is_found; i++)
-    search_frame(&list, script, frames->frames[i]);
-  for (int64_t i = 0; i < script->film.count && i < MOST_FRAMES && !list.is_found; i++)
-    search_frame(&list, script, script->film.first + i);
-  if (!list.is_found)
-    outcome = report(&list);
-  for (size_t i = 0; i < list.count; i++)
-    cs_mark_drop(list.names[i].mark);
-  return outcome;
 }
 
 enum { PIXEL = 4, CODE_MOST = 255 };

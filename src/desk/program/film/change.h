@@ -24,11 +24,6 @@ typedef struct cs_frame_change {
 } cs_frame_change;
 
 cs_frame_change cs_change_read(const cs_request *request);
-/* Searches for a cel of the name in the frames, then in the rest of the film, whose frames are
- * built one by one until one has such a cel. OK if it was found, and without --cel; otherwise the
- * error is reported, with the names of the cels in the film. */
-cs_exit cs_change_refuse(cs_script *script, const cs_frame_change *change,
-                         const cs_sequence *frames);
 /* Changes a frame's rostrums. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_change_frame(celspan_context *context,
                                                const cs_frame_change *change, cs_film_frame *frame);

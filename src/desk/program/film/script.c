@@ -229,13 +229,16 @@ static int print_nothing(lua_State *L) {
   return 0;
 }
 
-/* light userdata: the script, and its confinement or nothing. Runs protected. */
+/* light userdata: the script, and its confinement or nothing. Runs protected. Nothing of what is
+ * made here could be collected. */
 static int prepare(lua_State *L) {
   cs_script *script = lua_touserdata(L, 1);
   const cs_confined *confined = lua_touserdata(L, 2);
-  luaL_openlibs(L);
-  if (script->is_trusted)
+  lua_gc(L, LUA_GCSTOP);
+  if (script->is_trusted) { /* otherwise the sandbox opens what it gives to scripts */
+    luaL_openlibs(L);
     open_trusted(L, confined);
+  }
   cs_host_open(L, script->context);
   if (script->asks_files) {
     cs_host_remember_asked(L);
@@ -256,6 +259,7 @@ static int prepare(lua_State *L) {
     lua_pushcfunction(L, print_nothing);
     lua_setglobal(L, "print");
   }
+  lua_gc(L, LUA_GCRESTART);
   return 0;
 }
 

@@ -1,8 +1,11 @@
 #include "program/film/service.h"
 
+#include <inttypes.h>
 #include <string.h>
 
+#include "inside/context.h"
 #include "lua/bind/host.h"
+#include "lua/bind/suggest.h"
 #include "lua/sandbox/library.h"
 #include "process/interrupt.h"
 #include "program/film/confine.h"
@@ -32,11 +35,39 @@ void cs_service_add(lua_State *L, const luaL_Reg *functions) {
   luaL_setfuncs(L, functions, 1);
 }
 
+bool cs_service_find(lua_State *L, const luaL_Reg *const *lists) {
+  const char *name = luaL_checkstring(L, 2);
+  for (; *lists; lists++)
+    for (const luaL_Reg *one = *lists; one->name; one++)
+      if (one->name[0] == *name && strcmp(one->name, name) == 0) {
+        lua_pushlightuserdata(L, cs_service_session(L));
+        lua_pushcclosure(L, one->func, 1);
+        lua_pushvalue(L, 2);
+        lua_pushvalue(L, -2);
+        lua_rawset(L, 1);
+        return true;
+      }
+  return false;
+}
+
 void *cs_service_opened(lua_State *L) {
   lua_getfield(L, 1, "open");
   void *opened = lua_touserdata(L, -1);
   lua_pop(L, 1);
   return opened;
+}
+
+const char *cs_service_text(lua_State *L, const char *name) {
+  lua_getfield(L, 2, name);
+  const char *text = lua_type(L, -1) == LUA_TSTRING ? lua_tostring(L, -1) : NULL;
+  lua_pop(L, 1);
+  return text;
+}
+
+void cs_service_push_hash(lua_State *L, cs_hash hash) {
+  char digits[33];
+  snprintf(digits, sizeof digits, "%016" PRIx64 "%016" PRIx64, hash.a, hash.b);
+  lua_pushstring(L, digits);
 }
 
 const char **cs_service_push_words(lua_State *L, int index) {
@@ -55,10 +86,14 @@ const char **cs_service_push_words(lua_State *L, int index) {
 
 /* ---------------------------------------------------------------- reports */
 
-/* The sentence at an index. A zero byte would end it, so it is replaced in the same way as controls
- * in report.c. */
+/* The sentence at an index, with the values after it as string.format puts them. A zero byte would
+ * end it, so it is replaced in the same way as controls in report.c. */
 static const char *sentence_at(lua_State *L, int index) {
   size_t size;
+  luaL_checktype(L, index, LUA_TSTRING);
+  lua_getfield(L, index, "format");
+  lua_insert(L, index);
+  lua_call(L, lua_gettop(L) - index, 1);
   const char *text = luaL_checklstring(L, index, &size);
   if (strlen(text) == size)
     return text;
@@ -74,17 +109,25 @@ static const char *sentence_at(lua_State *L, int index) {
   return lua_tostring(L, index);
 }
 
+/* note(sentence, ...): "celspan: ..." on standard error */
 static int note(lua_State *L) {
   cs_report_note("%s", sentence_at(L, 1));
   return 0;
 }
 
+/* error(sentence, ...): "celspan: error: ..."; the verb continues. */
 static int report_error(lua_State *L) {
   cs_report_error("%s", sentence_at(L, 1));
   return 0;
 }
 
-/* fail(kind, message): reports it and ends the verb. */
+/* usage(sentence, ...): reports a wrong use and ends the verb. */
+static int usage(lua_State *L) {
+  return cs_service_end(L, cs_report_usage("%s", sentence_at(L, 1)));
+}
+
+/* fail(kind, sentence, ...): reports it and ends the verb. kind: "usage", "script", "input",
+ * "output" or "limit". */
 static int fail(lua_State *L) {
   static const char *const kinds[] = {"usage", "script", "input", "output", "limit", NULL};
   static const cs_exit codes[] = {CS_EXIT_USAGE, CS_EXIT_SCRIPT, CS_EXIT_INPUT, CS_EXIT_OUTPUT,
@@ -140,19 +183,54 @@ static int row(lua_State *L) {
   return 0;
 }
 
-/* count_frames(count): the verb makes frames, and reports their progress if it is asked for */
+/* count_frames(count, is_told, noun): the verb makes frames, or what the noun says, and reports
+ * their progress if it is asked for; is_told: also if it is not. noun: "frame" or "sound" */
 static int count_frames(lua_State *L) {
+  static const char *const nouns[] = {"frame", "sound", NULL};
   cs_session *session = cs_service_session(L);
-  cs_progress_start(&session->progress, session->request, CS_PROGRESS_NONE,
+  cs_progress_start(&session->progress, session->request,
+                    lua_toboolean(L, 2) ? CS_PROGRESS_AUTO : CS_PROGRESS_NONE,
                     (size_t)luaL_checkinteger(L, 1));
+  session->progress.noun = nouns[luaL_checkoption(L, 3, "frame", nouns)];
   return 0;
 }
 
-/* made_frame(number, output): one of them is on this sheet */
+/* made_frame(number, output, how): one of them is in this file. how: "made" unless it is given */
 static int made_frame(lua_State *L) {
   cs_progress_frame(&cs_service_session(L)->progress, luaL_checkinteger(L, 1),
-                    luaL_checkstring(L, 2), "made");
+                    luaL_checkstring(L, 2), luaL_optstring(L, 3, "made"));
   return 0;
+}
+
+/* failed_frame(number, message) -> the exit code: reports that a file of the frame is not there. */
+static int failed_frame(lua_State *L) {
+  celspan_context *context = cs_service_session(L)->context;
+  celspan_status status = cs_fail(context, CELSPAN_OUTPUT, "%s", luaL_checkstring(L, 2));
+  lua_pushinteger(L, cs_report_frame_failure(context, status, luaL_checkinteger(L, 1)));
+  return 1;
+}
+
+/* end_frames(failed, code): reports the end of the frames. failed: the numbers of those that
+ * failed. Nothing is reported afterwards. */
+static int end_frames(lua_State *L) {
+  cs_session *session = cs_service_session(L);
+  luaL_checktype(L, 1, LUA_TTABLE);
+  const size_t count = lua_rawlen(L, 1);
+  int64_t *frames = lua_newuserdatauv(L, (count + 1) * sizeof *frames, 0);
+  for (size_t i = 0; i < count; i++, lua_pop(L, 1)) {
+    lua_rawgeti(L, 1, (lua_Integer)i + 1);
+    frames[i] = lua_tointeger(L, -1);
+  }
+  cs_progress_end(&session->progress, (cs_progress_failures){frames, count},
+                  (int)luaL_checkinteger(L, 2));
+  session->progress.noun = NULL;
+  return 0;
+}
+
+/* flush(code) -> the exit code, after what was printed so far is on standard output */
+static int flush(lua_State *L) {
+  lua_pushinteger(L, cs_report_flush_output((cs_exit)luaL_checkinteger(L, 1)));
+  return 1;
 }
 
 /* reported() -> the last error that was reported | nil */
@@ -202,6 +280,12 @@ static int refuse_rights(lua_State *L) {
   return 0;
 }
 
+/* distance(word, other) -> how far apart they are, for guesses at what was meant */
+static int distance(lua_State *L) {
+  lua_pushinteger(L, cs_suggest_distance(luaL_checkstring(L, 1), luaL_checkstring(L, 2)));
+  return 1;
+}
+
 /* text(name) -> a text of verbs/, or nil */
 static int push_text(lua_State *L) {
   const cs_built_in *text = cs_built_in_find(cs_verb_texts, luaL_checkstring(L, 1));
@@ -212,23 +296,34 @@ static int push_text(lua_State *L) {
   return 1;
 }
 
-void cs_service_add_reports(lua_State *L) {
-  static const luaL_Reg services[] = {CS_SERVICE(note),
-                                      {"error", report_error},
-                                      CS_SERVICE(fail),
-                                      CS_SERVICE(check),
-                                      {"input", check_input},
-                                      {"show", cs_script_show},
-                                      CS_SERVICE(refuse),
-                                      CS_SERVICE(refuse_rights),
-                                      CS_SERVICE(outcome),
-                                      CS_SERVICE(reported),
-                                      CS_SERVICE(is_stopped),
-                                      {"text", push_text},
-                                      CS_SERVICE(task),
-                                      CS_SERVICE(row),
-                                      CS_SERVICE(count_frames),
-                                      CS_SERVICE(made_frame),
-                                      {NULL, NULL}};
-  cs_service_add(L, services);
+/* part(name, ...): runs a file that verbs share with these arguments -> its results */
+static int part(lua_State *L) {
+  cs_built_in_load(L, cs_verb_texts, "", luaL_checkstring(L, 1));
+  lua_replace(L, 1);
+  lua_call(L, lua_gettop(L) - 1, LUA_MULTRET);
+  return lua_gettop(L);
 }
+
+const luaL_Reg cs_services_reports[] = {CS_SERVICE(note),
+                                        {"error", report_error},
+                                        CS_SERVICE(fail),
+                                        CS_SERVICE(usage),
+                                        CS_SERVICE(part),
+                                        CS_SERVICE(check),
+                                        {"input", check_input},
+                                        {"show", cs_script_show},
+                                        CS_SERVICE(refuse),
+                                        CS_SERVICE(refuse_rights),
+                                        CS_SERVICE(outcome),
+                                        CS_SERVICE(reported),
+                                        CS_SERVICE(is_stopped),
+                                        {"text", push_text},
+                                        CS_SERVICE(task),
+                                        CS_SERVICE(row),
+                                        CS_SERVICE(distance),
+                                        CS_SERVICE(count_frames),
+                                        CS_SERVICE(made_frame),
+                                        CS_SERVICE(failed_frame),
+                                        CS_SERVICE(end_frames),
+                                        CS_SERVICE(flush),
+                                        {NULL, NULL}};

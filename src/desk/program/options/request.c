@@ -9,9 +9,10 @@ enum { NAME_SIZE = 32, NAMES_MOST = 64 };
 
 /* ---------------------------------------------------------------- options */
 
+/* Names of options have two characters at least; the third one differs in most of them. */
 static const cs_option *find(const cs_verb *verb, const char *name) {
   for (const cs_option *option = verb->options; option->name; option++)
-    if (strcmp(option->name, name) == 0)
+    if (option->name[2] == name[2] && strcmp(option->name, name) == 0)
       return option;
   return NULL;
 }

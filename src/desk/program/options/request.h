@@ -11,8 +11,6 @@
 
 #define CS_OPERANDS_MAX 1024
 
-struct cs_request;
-
 typedef struct cs_option {
   const char *name;
   const char *value;       /* its name in the help; NULL: a flag */
@@ -30,12 +28,11 @@ typedef struct cs_verb {
   bool asks_files;     /* it needs to know which files its script has read */
   bool asks_warnings;  /* it wants warnings about probable mistakes of the author */
   bool runs_again;     /* other processes run its script, too, or it is run again after changes */
+  bool runs_others;    /* it runs chunks in Lua that are neither scripts nor celspan's own */
   bool plans_rows;     /* it plans runs of another verb, which make the rows and write the log */
   const char *summary; /* one line */
   const char *notes;   /* more help, whole lines, or NULL */
   const cs_option *options; /* the last one has no name */
-  /* NULL: NAME.lua in verbs/ is run */
-  cs_exit (*run)(celspan_context *context, const struct cs_request *request);
 } cs_verb;
 
 /* All texts are borrowed: from the command line; the script's text from the caller that runs the

@@ -486,7 +486,7 @@ const cs_verb cs_verbs[] = {
               "endian. A video is made by ffmpeg, with the film's sound in sync: mp4 and "
               "mkv contain H.264 without alpha, mov ProRes 4444 and webm VP9, both with "
               "alpha.",
-     .options = RENDER, .run = cs_verb_render},
+     .options = RENDER},
     {"info", "SCRIPT|FILE", 1, 1, .has_script = true,
      .summary =
          "Prints figures about a film, picture, movie, painting, drawing, span or plane file.",
@@ -534,7 +534,7 @@ const cs_verb cs_verbs[] = {
               "  row x0 x1 single r g b a\n"
               "  row x0 x1 gradient r g b a r g b a     colours of the first and the last pixel\n"
               "  row x0 x1 array N",
-     .options = SPANS, .run = cs_verb_spans},
+     .options = SPANS},
     {"probe", "SCRIPT X Y", 3, 3, .has_script = true,
      .summary = "Prints the colour of one point as r g b a, linear and premultiplied.",
      .notes = "X and Y are film units. The scene is evaluated directly at the point, "
@@ -567,7 +567,7 @@ const cs_verb cs_verbs[] = {
               "painting. Equal "
               "tiles are one file with several names. A run that was stopped continues "
               "where it stopped.",
-     .options = TILES, .run = cs_verb_tiles},
+     .options = TILES},
     {"sheet", "FILE|SCRIPT", 1, 1, .has_script = true,
      .summary = "Prints or converts an exposure sheet, or writes the sheet of a film.",
      .notes = "A name that ends in .lua is a script. A FILE is an exposure sheet: XDTS, the "
@@ -585,7 +585,7 @@ const cs_verb cs_verbs[] = {
      .notes = "Sounds are decoded by ffmpeg, and mixed here. The file is as long as the "
               "frames. Louder parts than 16 bits hold are cut, which is reported. OUT is "
               "either complete or absent.",
-     .options = SOUND, .run = cs_verb_sound},
+     .options = SOUND},
     {"contact", "SCRIPT -o SHEET", 1, 1, .has_script = true,
      .summary = "Makes a contact sheet: frames side by side, each with its number.",
      .notes = "Without --every, as many frames are left out as necessary to fit on one "
@@ -651,7 +651,8 @@ const cs_verb cs_verbs[] = {
     {"help", "[WORDS]", 0, CS_OPERANDS_MAX, .is_hidden = true, .options = HELP},
     {"stage", "SCRIPT", 1, 1, .is_hidden = true, .has_script = true, .asks_files = true,
      .asks_warnings = true, .runs_again = true, .options = STAGE},
-    {"spec", "-- FILE [PATTERN]", 0, 0, .is_hidden = true, .has_script = true, .options = SPEC},
+    {"spec", "-- FILE [PATTERN]", 0, 0, .is_hidden = true, .has_script = true, .runs_others = true,
+     .options = SPEC},
     {0}};
 
 const cs_verb *cs_verb_named(const char *name) {

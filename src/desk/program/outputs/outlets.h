@@ -19,6 +19,8 @@ typedef struct cs_into {
   const celspan_frame_desc *frame; /* the view */
   const cs_sequence *frames;
   const cs_sequence *played; /* the frames whose sound is heard */
+  const char *chapters;      /* of a video, as in cs_video_extras; NULL: none */
+  const char *captions;      /* of a video, in the form of its format; NULL: none */
   bool keeps_nothing;
   bool has_noted; /* that a page has a picture */
   cs_slots raw;   /* of standard output; none: frames are written in rows */
@@ -27,14 +29,16 @@ typedef struct cs_into {
   cs_plot *pages;
 } cs_into;
 
+/* `into` is a cs_into, or begins with one: put, give and repeat are functions of a cs_shoot
+ * (frames/film/shoot.h), whose user it is. */
 typedef struct cs_outlet {
   bool is_file; /* which all frames share */
   cs_exit (*open)(cs_into *into);
-  celspan_status (*put)(cs_into *into, const cs_shoot_put *one);
-  /* For those that are made in slots; see frames/film/shoot.h. */
+  celspan_status (*put)(void *into, const cs_shoot_put *one);
+  /* For those that are made in slots. */
   size_t (*slots)(const cs_into *into);
-  celspan_status (*give)(cs_into *into, size_t slot);
-  celspan_status (*repeat)(cs_into *into);
+  celspan_status (*give)(void *into, size_t slot);
+  celspan_status (*repeat)(void *into);
   celspan_status (*commit)(cs_into *into);
   void (*discard)(cs_into *into);
 } cs_outlet;

@@ -2,16 +2,18 @@
 
 #include <string.h>
 
+#include "inside/context.h"
 #include "inside/sinks.h"
-#include "lua/module/subtitles.h"
+#include "lua/bind/put.h"
+#include "program/film/change.h"
 #include "program/film/soundtrack.h"
 #include "program/film/spaces.h"
-#include "program/outputs/poster.h"
 #include "program/outputs/video_colours.h"
 
 enum {
   MOST_SIDE = 16384, /* the limit of H.264 and VP9 */
-  QUALITY = 75       /* the default */
+  QUALITY = 75,      /* the default */
+  PIXEL = 4          /* bytes of a poster */
 };
 
 static const cs_video_format *format_of(const cs_request *request) {
@@ -54,7 +56,7 @@ static bool is_limited(const cs_video_codec *codec) {
   return codec->most_crf > 0 && !codec->module;
 }
 
-bool cs_video_target_runs_ffmpeg(const cs_request *request) {
+static bool runs_ffmpeg(const cs_request *request) {
   return !format_of(request)->codecs[0]->module;
 }
 
@@ -108,7 +110,7 @@ static cs_exit refuse_codec(const cs_request *request, const cs_video_format *fo
 cs_exit cs_video_target_refuse(celspan_context *context, const cs_request *request,
                                const char *path) {
   (void)context;
-  if (cs_request_has(request, "--strict") && cs_video_target_runs_ffmpeg(request))
+  if (cs_request_has(request, "--strict") && runs_ffmpeg(request))
     return cs_report_usage("--strict starts no programs, and ffmpeg makes videos: render frames, "
                            "and make the video of them");
   CS_TRY_EXIT(refuse_codec(request, format_of(request)));
@@ -184,67 +186,64 @@ static cs_exit set_sound(cs_video_desc *video, cs_script *script, const cs_reque
   return CS_EXIT_OK;
 }
 
-/* ---------------------------------------------------------------- captions */
+/* ---------------------------------------------------------------- the poster */
 
-static void tell_no_captions(const cs_video_desc *video) {
-  if (video->format->captions)
-    cs_report_note("%s: its captions are left out, because they go with one run of frames such as "
-                   "10-20",
-                   video->path);
-  else
-    cs_report_note("%s: %s holds no captions: they are left out", video->path, video->format->name);
+/* Builds the frame and adds it to the view. */
+static cs_exit build_poster(cs_script *script, const cs_request *request,
+                            celspan_frame_desc *frame) {
+  const cs_frame_change change = cs_change_read(request);
+  CS_TRY_EXIT(cs_script_build(script, script->film.poster));
+  celspan_status status = cs_change_frame(script->context, &change, &script->frame);
+  cs_film_expose(&script->film, &script->frame, frame);
+  return cs_script_failure(script, status);
 }
 
-/* The captions while these frames are played. They remain on the script's stack, and therefore live
- * as long as the script. */
-static cs_exit set_captions(cs_video_desc *video, cs_script *script, const cs_sequence *frames) {
-  const cs_film_info *film = &script->film;
-  if (!film->has_captions)
+/* 8 bits and straight alpha, which every program shows. */
+static celspan_coding poster_coding(const cs_request *request) {
+  celspan_coding coding = CELSPAN_CODING;
+  coding.depth = CELSPAN_DEPTH_8;
+  coding.alpha = CELSPAN_ALPHA_STRAIGHT;
+  cs_spaces_set(request, &coding);
+  return coding;
+}
+
+/* The pixels for an attached picture: RGBA of 8 bits, of the frame's size; NULL: the file has none.
+ * frame: the view. */
+static cs_exit make_poster(cs_script *script, const cs_request *request,
+                           const cs_video_format *format, const celspan_frame_desc *frame,
+                           unsigned char **out, size_t *size) {
+  celspan_frame_desc desc = *frame;
+  celspan_coding coding = poster_coding(request);
+  *out = NULL;
+  if (!script->film.has_poster || format->poster != CS_POSTER_ATTACHED)
     return CS_EXIT_OK;
-  if (!video->format->captions || !cs_sequence_is_run(frames)) {
-    tell_no_captions(video);
-    return CS_EXIT_OK;
-  }
+  CS_TRY_EXIT(build_poster(script, request, &desc));
+  bool is_part = desc.crop_width > 0;
+  size_t stride = PIXEL * (size_t)(is_part ? desc.crop_width : desc.width);
+  *size = stride * (size_t)(is_part ? desc.crop_height : desc.height);
+  *out = cs_mem_resize(script->context->memory, NULL, 0, *size);
   celspan_status status =
-      cs_subtitles_push(script->L, CS_SCRIPT_FILM, video->format->captions_form,
-                        (double)(frames->frames[0] - film->first) / film->frames_second,
-                        (double)frames->count / film->frames_second);
-  const char *text = status == CELSPAN_OK ? lua_tostring(script->L, -1) : "";
-  video->captions = text[0] ? text : NULL;
-  return cs_report_failure(script->context, status, NULL);
+      *out ? celspan_frame_pixels(script->context, &desc, &coding, *out, stride, NULL)
+           : cs_fail_memory(script->context);
+  if (status != CELSPAN_OK) {
+    cs_mem_free(script->context->memory, *out, *size);
+    *out = NULL;
+  }
+  return cs_script_failure(script, status);
+}
+
+cs_exit cs_video_target_write_poster(cs_script *script, const cs_request *request,
+                                     const celspan_frame_desc *frame, const char *path) {
+  celspan_frame_desc desc = *frame;
+  celspan_coding coding = poster_coding(request);
+  celspan_file_desc file = CELSPAN_FILE_DESC;
+  file.format = "png";
+  file.coding = &coding;
+  CS_TRY_EXIT(build_poster(script, request, &desc));
+  return cs_script_failure(script, celspan_frame_write(script->context, &desc, path, &file, NULL));
 }
 
 /* ---------------------------------------------------------------- opening */
-
-/* The sound belongs to the video as soon as it is opened. */
-static cs_exit open_with_sound(cs_video *out, cs_script *script, const cs_request *request,
-                               cs_video_desc *desc, const cs_sequence *played) {
-  CS_TRY_EXIT(set_sound(desc, script, request, played));
-  return cs_report_failure(script->context, cs_video_open(out, script->context, desc), NULL);
-}
-
-static cs_exit open_with_chapters(cs_video *out, cs_script *script, const cs_request *request,
-                                  cs_video_desc *desc, const cs_sequence *played) {
-  char *chapters;
-  celspan_status status = cs_chapters_make(script, played, &chapters);
-  CS_TRY_EXIT(cs_report_failure(script->context, status, NULL));
-  desc->chapters = chapters;
-  cs_exit outcome = open_with_sound(out, script, request, desc, played);
-  cs_chapters_free(script, chapters);
-  return outcome;
-}
-
-static cs_exit open_with_poster(cs_video *out, cs_script *script, const cs_request *request,
-                                cs_video_desc *desc, const celspan_frame_desc *frame,
-                                const cs_sequence *played) {
-  unsigned char *pixels;
-  size_t size = 0;
-  CS_TRY_EXIT(cs_poster_make(script, request, desc->format, frame, &pixels, &size));
-  desc->poster = pixels;
-  cs_exit outcome = open_with_chapters(out, script, request, desc, played);
-  cs_mem_free(script->context->memory, pixels, size);
-  return outcome;
-}
 
 static cs_video_desc describe(const cs_script *script, const cs_request *request,
                               const celspan_frame_desc *frame) {
@@ -273,20 +272,35 @@ cs_exit cs_video_target_refuse_frames(const cs_script *script, const cs_request 
   return refuse_rate(&desc);
 }
 
+/* The sound belongs to the video as soon as it is opened. */
+static cs_exit open_with_sound(cs_video *out, cs_script *script, const cs_request *request,
+                               cs_video_desc *desc, const cs_sequence *played) {
+  CS_TRY_EXIT(set_sound(desc, script, request, played));
+  return cs_report_failure(script->context, cs_video_open(out, script->context, desc), NULL);
+}
+
 cs_exit cs_video_target_open(cs_video *out, cs_script *script, const cs_request *request,
-                             const celspan_frame_desc *frame, const cs_sequence *played) {
-  CS_TRY_EXIT(cs_video_target_refuse_frames(script, request, frame));
+                             const celspan_frame_desc *frame, const cs_sequence *played,
+                             const char *chapters, const char *captions) {
+  unsigned char *pixels;
+  size_t size = 0;
   cs_video_desc desc = describe(script, request, frame);
+  desc.chapters = chapters;
+  desc.captions = captions;
   CS_TRY_EXIT(cs_video_colours_set(request, &desc.options));
-  CS_TRY_EXIT(set_captions(&desc, script, played));
-  return open_with_poster(out, script, request, &desc, frame, played);
+  CS_TRY_EXIT(make_poster(script, request, desc.format, frame, &pixels, &size));
+  desc.poster = pixels;
+  cs_exit outcome = open_with_sound(out, script, request, &desc, played);
+  cs_mem_free(script->context->memory, pixels, size);
+  return outcome;
 }
 
-bool cs_video_target_has_poster(const cs_script *script, const cs_request *request) {
-  return cs_poster_is_there(script, request, format_of(request));
-}
-
-cs_exit cs_video_target_add_poster(cs_script *script, const cs_request *request,
-                                   const celspan_frame_desc *frame) {
-  return cs_poster_write(script, request, format_of(request), frame);
+void cs_video_target_put(lua_State *L, const cs_request *request) {
+  static const char *const posters[] = {
+      [CS_POSTER_NONE] = NULL, [CS_POSTER_ATTACHED] = "attached", [CS_POSTER_BESIDE] = "beside"};
+  const cs_video_format *format = format_of(request);
+  cs_put_text(L, "format", format->name);
+  cs_put_text(L, "captions_form", format->captions ? format->captions_form : NULL);
+  cs_put_text(L, "poster", posters[format->poster]);
+  cs_put_flag(L, "runs_ffmpeg", runs_ffmpeg(request));
 }

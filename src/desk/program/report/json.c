@@ -40,12 +40,10 @@ static void append(cs_json *json, const char *text, size_t size) {
   json->length += size;
 }
 
-/* name: NULL in a list. */
 static void name_member(cs_json *json, const char *name) {
   char start[80];
-  bool is_first = strchr("{[", json->text[json->length - 1]);
-  int size = name ? snprintf(start, sizeof start, "%s\"%s\":", is_first ? "" : ",", name)
-                  : snprintf(start, sizeof start, "%s", is_first ? "" : ",");
+  bool is_first = json->length == 1;
+  int size = snprintf(start, sizeof start, "%s\"%s\":", is_first ? "" : ",", name);
   append(json, start, (size_t)size);
 }
 
@@ -88,13 +86,6 @@ void cs_json_integers(cs_json *json, const char *name, const int64_t *values, si
   }
   append(json, "]", 1);
 }
-
-void cs_json_open(cs_json *json, const char *name, char bracket) {
-  name_member(json, name);
-  append(json, &bracket, 1);
-}
-
-void cs_json_close(cs_json *json, char bracket) { append(json, &bracket, 1); }
 
 const char *cs_json_end(cs_json *json) {
   memcpy(json->text + json->length, "}\n", 3);

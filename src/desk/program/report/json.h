@@ -20,9 +20,5 @@ void cs_json_integer(cs_json *json, const char *name, int64_t value);
 void cs_json_number(cs_json *json, const char *name, double value);
 /* A list of whole numbers; numbers that do not fit are left out. */
 void cs_json_integers(cs_json *json, const char *name, const int64_t *values, size_t count);
-/* Begins a member that is a list, with the bracket [, or an object, with {; name: NULL in a list.
- * The caller closes it with the other bracket, and keeps the whole within a kilobyte. */
-void cs_json_open(cs_json *json, const char *name, char bracket);
-void cs_json_close(cs_json *json, char bracket);
 /* Ends the object and its line. The text belongs to the json. */
 const char *cs_json_end(cs_json *json);

@@ -7,6 +7,7 @@
 
 #include "common/resolve.h"
 #include "inside/files.h"
+#include "inside/hash.h"
 #include "inside/sinks.h"
 #include "lua/bind/userdata.h"
 #include "lua/module/artwork.h"
@@ -76,6 +77,77 @@ static int sha256(lua_State *L) {
   lua_pushstring(L, text);
   lua_pushinteger(L, size);
   return 2;
+}
+
+/* hash(text) -> 32 hexadecimal digits */
+static int hash(lua_State *L) {
+  size_t size;
+  const char *text = luaL_checklstring(L, 1, &size);
+  cs_hash sum = cs_hash_begin(size);
+  cs_hash_bytes(&sum, text, size);
+  cs_service_push_hash(L, cs_hash_end(sum));
+  return 1;
+}
+
+/* contents(path) -> the bytes of a file, and their hash as script:shoot gives it | nothing: it
+ * cannot be read */
+static int contents(lua_State *L) {
+  cs_file_contents found;
+  int descriptor = cs_open_to_read(luaL_checkstring(L, 1));
+  bool is_read = descriptor >= 0 && cs_file_contents_read(descriptor, &found);
+  if (descriptor >= 0)
+    close(descriptor);
+  if (!is_read)
+    return 0;
+  lua_pushinteger(L, (lua_Integer)found.bytes);
+  cs_service_push_hash(L, found.hash);
+  return 2;
+}
+
+/* ---------------------------------------------------------------- journals */
+
+/* Opens a journal with this first line; a file with another one is emptied. -1: errno has the
+ * reason. */
+static int open_journal(const char *path, const char *head, size_t size) {
+  char found[64] = "";
+  int file = cs_journal_open(path);
+  ssize_t got = file < 0 ? -1 : cs_open_read_at(file, found, size, 0);
+  bool is_same = got == (ssize_t)size && memcmp(found, head, size) == 0;
+  bool is_good = got >= 0 && (is_same ? cs_journal_end_last(file)
+                                      : ftruncate(file, 0) == 0 && cs_journal_add(file, head));
+  int error = errno;
+  if (!is_good && file >= 0)
+    close(file);
+  errno = error;
+  return is_good ? file : -1;
+}
+
+static int close_journal(lua_State *L) {
+  int *file = lua_touserdata(L, 1);
+  if (*file > 0)
+    close(*file);
+  *file = 0;
+  return 0;
+}
+
+/* Upvalue: the journal. (text) -> true | nil, the reason of the system */
+static int add_to_journal(lua_State *L) {
+  const int *file = lua_touserdata(L, lua_upvalueindex(1));
+  return luaL_fileresult(L, cs_journal_add(*file, luaL_checkstring(L, 1)), NULL);
+}
+
+/* journal(path, head) -> a function that adds a text to a file, to which several processes may add;
+ * its first line is the head, of at most 64 bytes | nil, the reason of the system */
+static int journal(lua_State *L) {
+  size_t size;
+  const char *path = luaL_checkstring(L, 1), *head = luaL_checklstring(L, 2, &size);
+  luaL_argcheck(L, size <= 64, 2, "too long");
+  int *file = cs_userdata_push_holder(L, "celspan.program.journal", sizeof *file, close_journal);
+  *file = open_journal(path, head, size);
+  if (*file < 0)
+    return luaL_fileresult(L, 0, NULL);
+  lua_pushcclosure(L, add_to_journal, 1);
+  return 1;
 }
 
 /* ---------------------------------------------------------------- folders */
@@ -163,6 +235,20 @@ static int output(lua_State *L) {
   const cs_output *row = cs_output_of(request, luaL_checkstring(L, 1), 1);
   lua_pushstring(L, row ? row->kind : NULL);
   return 1;
+}
+
+/* sweep(path): removes what killed runs have left of files of this name or pattern. */
+static int sweep(lua_State *L) {
+  cs_temporary_sweep(luaL_checkstring(L, 1), cs_sequence_matches);
+  return 0;
+}
+
+/* refuse_render(): ends the verb if the request is wrong, as far as it can be known without the
+ * film. */
+static int refuse_render(lua_State *L) {
+  const cs_session *session = cs_service_session(L);
+  cs_service_require(L, cs_output_refuse_early(session->context, session->request));
+  return 0;
 }
 
 /* refuse_target(path): ends the verb if the request cannot write a file of this name. */
@@ -266,12 +352,13 @@ static int join(lua_State *L) {
   return 0;
 }
 
-void cs_service_add_files(lua_State *L) {
-  static const luaL_Reg services[] = {
-      CS_SERVICE(kind),         CS_SERVICE(make_folders),   CS_SERVICE(entries),
-      CS_SERVICE(resolve),      CS_SERVICE(working_folder), CS_SERVICE(has_number),
-      CS_SERVICE(output),       CS_SERVICE(refuse_target),  CS_SERVICE(save),
-      CS_SERVICE(save_archive), CS_SERVICE(save_private),   CS_SERVICE(join),
-      CS_SERVICE(sha256),       {"is_movie", cs_movies_is}, {NULL, NULL}};
-  cs_service_add(L, services);
-}
+const luaL_Reg cs_services_files[] = {CS_SERVICE(kind),           CS_SERVICE(make_folders),
+                                      CS_SERVICE(entries),        CS_SERVICE(resolve),
+                                      CS_SERVICE(working_folder), CS_SERVICE(has_number),
+                                      CS_SERVICE(output),         CS_SERVICE(refuse_target),
+                                      CS_SERVICE(refuse_render),  CS_SERVICE(sweep),
+                                      CS_SERVICE(save),           CS_SERVICE(save_archive),
+                                      CS_SERVICE(save_private),   CS_SERVICE(journal),
+                                      CS_SERVICE(join),           CS_SERVICE(sha256),
+                                      CS_SERVICE(hash),           CS_SERVICE(contents),
+                                      {"is_movie", cs_movies_is}, {NULL, NULL}};

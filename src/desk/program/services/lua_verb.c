@@ -8,11 +8,12 @@
 #include <unistd.h>
 
 #include "celspan/lua.h"
+#include "inside/context.h"
 #include "inside/module.h"
 #include "lua/bind/host.h"
 #include "lua/bind/lua_error.h"
 #include "lua/bind/put.h"
-#include "lua/module/core.h"
+#include "lua/bind/require.h"
 #include "program/film/movies.h"
 #include "program/film/script.h"
 #include "program/film/service.h"
@@ -146,14 +147,54 @@ static int push_outputs(lua_State *L) {
 
 /* ---------------------------------------------------------------- the state */
 
-static void open_libraries(lua_State *L, celspan_context *context) {
+/* __index of globals: a library is opened when it, or its `require`, is first named. */
+static int open_library(lua_State *L) {
+  static const luaL_Reg libraries[] = {{LUA_IOLIBNAME, luaopen_io},
+                                       {LUA_OSLIBNAME, luaopen_os},
+                                       {LUA_MATHLIBNAME, luaopen_math},
+                                       {LUA_TABLIBNAME, luaopen_table},
+                                       {LUA_UTF8LIBNAME, luaopen_utf8},
+                                       {LUA_COLIBNAME, luaopen_coroutine},
+                                       {LUA_DBLIBNAME, luaopen_debug},
+                                       {LUA_LOADLIBNAME, luaopen_package},
+                                       {NULL, NULL}};
+  const luaL_Reg *one = libraries;
+  const char *name = lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : "";
+  const char *library = strcmp(name, "require") == 0 ? LUA_LOADLIBNAME : name;
+  while (one->name && strcmp(one->name, library) != 0)
+    one++;
+  if (!one->name)
+    return 0;
+  luaL_requiref(L, library, one->func, 1);
+  lua_pushglobaltable(L);
+  lua_pushvalue(L, 2);
+  lua_rawget(L, -2);
+  lua_pushvalue(L, -1);
+  lua_setfield(L, 1, name);
+  return 1;
+}
+
+/* A verb that runs chunks of others gives them all libraries. The other modules of celspan come
+ * with the module of this name. */
+static void open_libraries(lua_State *L, celspan_context *context, bool has_others) {
   static const luaL_Reg modules[] = {{"celspan", luaopen_celspan}, {NULL, NULL}};
-  luaL_openlibs(L);
+  static const luaL_Reg opening[] = {{"__index", open_library}, {NULL, NULL}};
+  if (has_others) {
+    luaL_openlibs(L);
+  } else {
+    luaL_requiref(L, LUA_GNAME, luaopen_base, 1);
+    luaL_requiref(L, LUA_STRLIBNAME, luaopen_string, 1);
+    cs_require_push_globals(L);
+    luaL_newlib(L, opening);
+    lua_pushvalue(L, -1);
+    lua_setmetatable(L, -3); /* of these globals, and of those of the state */
+    lua_setmetatable(L, 1);
+    lua_settop(L, 0);
+  }
   cs_host_open(L, context);
   luaL_getsubtable(L, LUA_REGISTRYINDEX, LUA_PRELOAD_TABLE);
   luaL_setfuncs(L, modules, 0);
   lua_pop(L, 1);
-  cs_core_open(L);
   cs_movies_give(L);
 }
 
@@ -164,61 +205,80 @@ static bool holds_annotations(const char *folder) {
   return access(path, R_OK) == 0;
 }
 
-/* The folder of the annotations: where they were installed; otherwise beside the program, in a
+/* annotations() -> their folder: where they were installed; otherwise beside the program, in a
  * build folder or in an installation that was moved. */
-static void put_annotations(lua_State *L) {
+static int push_annotations(lua_State *L) {
   static const char *const beside[] = {"../share/celspan/annotations", "lua"};
   char own[FOLDER_SIZE / 2], folder[FOLDER_SIZE], found[PATH_MAX];
   bool is_known = cs_program_folder(own, sizeof own);
   bool is_there = holds_annotations(CS_ANNOTATIONS);
-  cs_put_text(L, "annotations", CS_ANNOTATIONS);
+  lua_pushstring(L, CS_ANNOTATIONS);
   for (size_t i = 0; is_known && !is_there && i < sizeof beside / sizeof *beside; i++) {
     snprintf(folder, sizeof folder, "%s/%s", own, beside[i]);
     is_there = holds_annotations(folder) && realpath(folder, found);
     if (is_there)
-      cs_put_text(L, "annotations", found);
+      lua_pushstring(L, found);
   }
+  return 1;
+}
+
+static const luaL_Reg own_services[] = {{"verbs", push_verbs},
+                                        {"outputs", push_outputs},
+                                        {"annotations", push_annotations},
+                                        {NULL, NULL}};
+
+/* program.NAME, for the first time: services are looked for when a verb needs them. */
+static int find_service(lua_State *L) {
+  static const luaL_Reg *const lists[] = {
+      own_services,         cs_services_reports,   cs_services_script,    cs_services_files,
+      cs_services_pictures, cs_services_processes, cs_services_renderers, cs_services_shown,
+      cs_services_stage,    cs_services_watchers,  cs_services_web,       NULL};
+  cs_session *session = cs_service_session(L);
+  if (cs_service_find(L, lists))
+    return 1;
+  if (session->has_shared)
+    return 0;
+  cs_built_in_load(L, cs_verb_texts, "", "program.lua");
+  lua_pushvalue(L, 1);
+  lua_call(L, 1, 0);
+  session->has_shared = true;
+  lua_pushvalue(L, 2);
+  lua_rawget(L, 1);
+  return 1;
 }
 
 /* Pushes the table of services. */
 static void push_program(lua_State *L) {
-  static const luaL_Reg services[] = {
-      {"verbs", push_verbs}, {"outputs", push_outputs}, {NULL, NULL}};
+  static const luaL_Reg finding[] = {{"__index", find_service}, {NULL, NULL}};
   lua_newtable(L);
-  cs_service_add(L, services);
   cs_put_text(L, "version", celspan_version());
-  put_annotations(L);
-  cs_service_add_reports(L);
-  cs_service_add_film(L);
-  cs_service_add_files(L);
-  cs_service_add_pictures(L);
-  cs_service_add_processes(L);
-  cs_service_add_renderers(L);
-  cs_service_add_stage(L);
-  cs_service_add_watchers(L);
-  cs_service_add_web(L);
+  cs_put_text(L, "maker", cs_context_maker(cs_service_session(L)->context));
+  lua_createtable(L, 0, 1);
+  cs_service_add(L, finding);
+  lua_setmetatable(L, -2);
 }
 
-/* Upvalue: the program. Returns the verb's exit code, or nothing. Runs protected. */
+/* Pushes the name of the file of the verb. */
+static void push_file(lua_State *L, const cs_request *request) {
+  if (!request->verb->plans_rows && cs_request_has(request, "--table"))
+    lua_pushliteral(L, "table.lua");
+  else if (request->output && request->output->part)
+    lua_pushstring(L, request->output->part);
+  else
+    lua_pushfstring(L, "%s.lua", request->verb->name);
+}
+
+/* Upvalue: the session. Returns the verb's exit code, or nothing. Runs protected. Nothing of what
+ * is made before the verb runs could be collected. */
 static int run(lua_State *L) {
   const cs_session *session = cs_service_session(L);
-  open_libraries(L, session->context);
+  lua_gc(L, LUA_GCSTOP);
+  open_libraries(L, session->context, session->request->verb->runs_others);
+  push_file(L, session->request);
+  cs_built_in_load(L, cs_verb_texts, "", lua_tostring(L, -1));
   push_program(L);
   push_request(L, session->request);
-  cs_built_in_load(L, cs_verb_texts, "", "program.lua");
-  lua_pushvalue(L, 1);
-  lua_call(L, 1, 0);
-  const cs_verb *verb = session->request->verb;
-  const cs_output *output = session->request->output;
-  if (!verb->plans_rows && cs_request_has(session->request, "--table"))
-    lua_pushliteral(L, "table.lua");
-  else if (output && output->part)
-    lua_pushstring(L, output->part);
-  else
-    lua_pushfstring(L, "%s.lua", verb->name);
-  cs_built_in_load(L, cs_verb_texts, "", lua_tostring(L, -1));
-  lua_insert(L, 1);
-  lua_settop(L, 3);
+  lua_gc(L, LUA_GCRESTART);
   lua_call(L, 2, 1);
   return 1;
 }
@@ -250,7 +310,7 @@ cs_exit cs_lua_verb_run(celspan_context *context, const cs_request *request) {
   lua_pushlightuserdata(L, &session);
   cs_script_watch(L);
   cs_exit outcome = outcome_of(L, &session, cs_lua_error_call(L, 1, 1));
-  if (session.progress.frame_count > 0)
+  if (session.progress.noun)
     cs_progress_end(&session.progress, (cs_progress_failures){NULL, 0}, (int)outcome);
   cs_script_watch(NULL);
   lua_close(L);

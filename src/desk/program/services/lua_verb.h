@@ -1,12 +1,13 @@
 /* Verbs in Lua: the text verbs/NAME.lua, with a table of services and the request as its arguments.
  *
- *   main --> cs_lua_verb_run --> verbs/program.lua, verbs/NAME.lua     the program's state
+ *   main --> cs_lua_verb_run --> verbs/NAME.lua --> verbs/program.lua  the program's state
  *                                   |
  *                                   +--> service.c: reports; file_service.c, ...: files, processes
- *                                   +--> film_service.c --> script.c   the script's state
+ *                                   +--> script_service.c --> script.c   the script's state
  *
- * Texts are part of the binary. A state loads program.lua and the text of its verb, and celspan's
- * modules when one of them is required.
+ * Texts are part of the binary. A state loads the text of its verb. Services, which are the fields
+ * of `program`, are made when the verb asks for them: first those in C; program.lua is loaded for
+ * the first name that C does not have; celspan's modules, when one of them is required.
  */
 #pragma once
 

@@ -1,5 +1,4 @@
-/* Pictures for verbs in Lua: reads facts, compares, converts, and writes frames. One file, because
- * comparing, converting and writing read a picture in the same way.
+/* Pictures for verbs in Lua: facts of files, differences, and frames as pictures.
  *
  * Whether two pictures show the same is decided row by row, span by span. Coded values are
  * compared: sRGB, straight, at 16 bits when both pictures hold integers and as floats when one of
@@ -27,8 +26,6 @@
 #include "program/outputs/outputs.h"
 #include "program/outputs/target.h"
 #include "writers/still/still.h"
-
-#define PIXELS_MOST (1 << 26) /* of a picture in memory */
 
 /* ---------------------------------------------------------------- what a picture holds */
 
@@ -467,58 +464,6 @@ static int compare(lua_State *L) {
   return 1;
 }
 
-/* convert(in, out): writes the picture that a file shows, under the request, to another file. */
-static int convert(lua_State *L) {
-  const cs_session *session = cs_service_session(L);
-  const char *input = luaL_checkstring(L, 1), *path = luaL_checkstring(L, 2);
-  const cs_output *output = cs_output_of(session->request, path, 1);
-  cs_still *stills =
-      cs_userdata_push_holder(L, "celspan.program.stills", 2 * sizeof *stills, close_stills);
-  celspan_coding coding;
-  celspan_file_desc file = cs_target_file(session->request, &coding);
-  celspan_frame_desc frame;
-  if (strcmp(output->kind, "planes") == 0 && !cs_shown_is_film(input))
-    cs_service_require(
-        L, cs_report_usage("%s: a plane is made of a script or a drawing, not of a picture", path));
-  cs_service_require(L, cs_shown_open(session->context, session->request, input, true, stills));
-  cs_service_require(L, cs_shown_frame(session->request, stills, &frame));
-  const cs_page page = {.frame = &frame, .plane = stills->plane, .path = path, .file = &file};
-  cs_service_try(L, output->write ? output->write(session->context, session->request, output, &page)
-                                  : cs_still_write(session->context, stills, &frame, path, &file));
-  return 0;
-}
-
-/* pixels(path) -> the picture that a file shows: RGBA of 16 bits, sRGB, straight; width, height,
- * whether it has alpha */
-static int read_pixels(lua_State *L) {
-  static const celspan_coding coding = {.struct_size = sizeof coding,
-                                        .depth = CELSPAN_DEPTH_16,
-                                        .transfer = CELSPAN_TRANSFER_SRGB,
-                                        .alpha = CELSPAN_ALPHA_STRAIGHT};
-  const cs_session *session = cs_service_session(L);
-  const char *path = luaL_checkstring(L, 1);
-  cs_still *stills =
-      cs_userdata_push_holder(L, "celspan.program.stills", 2 * sizeof *stills, close_stills);
-  celspan_frame_desc frame;
-  celspan_sink sink = CELSPAN_SINK;
-  cs_service_require(L, cs_shown_open(session->context, session->request, path, true, stills));
-  cs_service_require(L, cs_shown_frame(session->request, stills, &frame));
-  if ((int64_t)frame.width * frame.height > PIXELS_MOST)
-    cs_service_try(L, cs_fail(session->context, CELSPAN_LIMIT,
-                              "%s: has %d x %d pixels, of which this verb takes %d at most", path,
-                              frame.width, frame.height, PIXELS_MOST));
-  const size_t stride = 4 * sizeof(uint16_t) * (size_t)frame.width;
-  const size_t size = stride * (size_t)frame.height;
-  void *bytes = lua_newuserdatauv(L, size, 0);
-  cs_service_try(L, cs_sink_memory(session->context, &coding, bytes, stride, &sink));
-  cs_service_try(L, cs_still_render(session->context, stills, &frame, &sink));
-  lua_pushlstring(L, bytes, size);
-  lua_pushinteger(L, frame.width);
-  lua_pushinteger(L, frame.height);
-  lua_pushboolean(L, stills->info.has_alpha);
-  return 4;
-}
-
 static int finish_frame(lua_State *L) {
   cs_film_frame_finish(lua_touserdata(L, 1));
   return 0;
@@ -620,10 +565,6 @@ static int make_png(lua_State *L) {
   return 3;
 }
 
-void cs_service_add_pictures(lua_State *L) {
-  static const luaL_Reg services[] = {
-      {"picture", read_facts}, {"spans", read_spans}, {"plane", read_plane},
-      CS_SERVICE(compare),     CS_SERVICE(convert),   {"pixels", read_pixels},
-      {"write", write_frame},  {"png", make_png},     {NULL, NULL}};
-  cs_service_add(L, services);
-}
+const luaL_Reg cs_services_pictures[] = {
+    {"picture", read_facts}, {"spans", read_spans}, {"plane", read_plane}, CS_SERVICE(compare),
+    {"write", write_frame},  {"png", make_png},     {NULL, NULL}};

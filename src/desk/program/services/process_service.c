@@ -10,16 +10,23 @@
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include "inside/clock.h"
 #include "inside/context.h"
 #include "inside/module.h"
+#include "lua/bind/put.h"
+#include "process/child.h"
 #include "process/interrupt.h"
 #include "process/spawn.h"
+#include "program/commit.h"
 #include "program/film/confine.h"
 #include "program/film/service.h"
+#include "program/report/log.h"
+
+#define ANSWER_SECONDS 5.0 /* for ffmpeg to say its version */
 
 enum { CHILDREN_MOST = 1024 };
 
@@ -146,10 +153,59 @@ static int clock_now(lua_State *L) {
   return 1;
 }
 
-void cs_service_add_processes(lua_State *L) {
-  static const luaL_Reg services[] = {
-      CS_SERVICE(start),         {"wait", wait_for_one}, CS_SERVICE(default_signals),
-      CS_SERVICE(launch),        CS_SERVICE(has_ended),  CS_SERVICE(processors),
-      CS_SERVICE(divide_memory), {"clock", clock_now},   {NULL, NULL}};
-  cs_service_add(L, services);
+/* ---------------------------------------------------------------- this run */
+
+/* Linux counts kilobytes. */
+static int64_t peak_of(int who) {
+  struct rusage used = {0};
+  getrusage(who, &used);
+  return (int64_t)used.ru_maxrss * 1024;
 }
+
+/* run_facts() -> what a report says of this run: its host, the present time, the bytes of memory at
+ * their most, and the versions of what the program is made of */
+static int run_facts(lua_State *L) {
+  char now[CS_LOG_TIME];
+  cs_log_time(now);
+  lua_newtable(L);
+  cs_put_text(L, "host", cs_log_host());
+  cs_put_text(L, "ended", now);
+  cs_put_text(L, "celspan", celspan_version());
+  cs_put_text(L, "commit", CS_COMMIT);
+  cs_put_text(L, "openimageio", CELSPAN_OPENIMAGEIO[0] ? CELSPAN_OPENIMAGEIO : NULL);
+  cs_put_text(L, "libavif", CELSPAN_LIBAVIF[0] ? CELSPAN_LIBAVIF : NULL);
+  lua_newtable(L);
+  cs_put_integer(L, "process", peak_of(RUSAGE_SELF));
+  cs_put_integer(L, "children", peak_of(RUSAGE_CHILDREN));
+  cs_put_integer(L, "celspan", (int64_t)atomic_load(&cs_service_session(L)->context->memory->peak));
+  lua_setfield(L, -2, "memory");
+  return 1;
+}
+
+/* ffmpeg_version() -> the version that ffmpeg prints | nil: there is none, or it does not answer in
+ * time */
+static int ffmpeg_version(lua_State *L) {
+  static const char *const question[] = {"sh", "-c", "ffmpeg -version | head -n 1 >&2", NULL};
+  cs_child child;
+  char version[80];
+  if (cs_child_start(&child, question, false) != 0)
+    return 0;
+  close(child.input);
+  cs_child_end(&child, ANSWER_SECONDS);
+  if (sscanf(child.words.text, "ffmpeg version %79s", version) != 1)
+    return 0;
+  lua_pushstring(L, version);
+  return 1;
+}
+
+const luaL_Reg cs_services_processes[] = {CS_SERVICE(start),
+                                          {"wait", wait_for_one},
+                                          CS_SERVICE(default_signals),
+                                          CS_SERVICE(launch),
+                                          CS_SERVICE(has_ended),
+                                          CS_SERVICE(processors),
+                                          CS_SERVICE(divide_memory),
+                                          {"clock", clock_now},
+                                          CS_SERVICE(run_facts),
+                                          CS_SERVICE(ffmpeg_version),
+                                          {NULL, NULL}};

@@ -275,7 +275,4 @@ static int open_renderer(lua_State *L) {
   return 1;
 }
 
-void cs_service_add_renderers(lua_State *L) {
-  static const luaL_Reg services[] = {{"renderer", open_renderer}, {NULL, NULL}};
-  cs_service_add(L, services);
-}
+const luaL_Reg cs_services_renderers[] = {{"renderer", open_renderer}, {NULL, NULL}};

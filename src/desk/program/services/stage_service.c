@@ -1,7 +1,7 @@
 /* program.stage(): the requests to a film that is watched (celspan watch), and its pictures, which
  * are drawn while the next frame is built.
  *
- *   standard input --> next() --request--> the verb builds a frame --> film:draw()
+ *   standard input --> next() --request--> the verb builds a frame --> script:draw()
  *           \--given up--> is_given_up                                   | any thread
  *                                    standard output <--picture-- ring <-/
  *
@@ -13,7 +13,7 @@
  * INVARIANT: only the thread of the verb reads standard input. It alone uses the ring, except for
  * the pictures that other threads draw. A thread answers with its picture at once, so that a frame
  * that is never built holds no picture back. A frame with procedures is drawn by the thread of the
- * verb before film:draw() returns, because procedures run in the state of the script; its picture
+ * verb before script:draw() returns, because procedures run in the state of the script; its picture
  * is put at the next call of next().
  */
 #include <errno.h>
@@ -245,10 +245,11 @@ static void add(stage *s, cs_script *script, const celspan_frame_desc *desc, cs_
                   CELSPAN_OK);
 }
 
-/* film:draw(width, height, x, y, w, h, what, workers or nil, stage) -> true | nil, message: begins
- * to draw a part of the frame that was built last at this size: 8 bits, sRGB, straight alpha, as
- * "rgba", as a "png", or as "runs"; or as "spans", the kinds of its spans in RGBA. The picture is
- * the answer to the request that stage:next() has given last. The film has no frame then. */
+/* script:draw(width, height, x, y, w, h, what, workers or nil, stage) -> true | nil, message:
+ * begins to draw a part of the frame that was built last at this size: 8 bits, sRGB, straight
+ * alpha, as "rgba", as a "png", or as "runs"; or as "spans", the kinds of its spans in RGBA. The
+ * picture is the answer to the request that stage:next() has given last. The film has no frame
+ * then. */
 int cs_stage_draw(lua_State *L, cs_script *script) {
   static const char *const kinds[] = {"rgba", "png", "spans", "runs", NULL};
   celspan_frame_desc desc;
@@ -334,7 +335,4 @@ static int open_stage(lua_State *L) {
   return 1;
 }
 
-void cs_service_add_stage(lua_State *L) {
-  static const luaL_Reg services[] = {{"stage", open_stage}, {NULL, NULL}};
-  cs_service_add(L, services);
-}
+const luaL_Reg cs_services_stage[] = {{"stage", open_stage}, {NULL, NULL}};

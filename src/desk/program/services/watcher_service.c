@@ -72,7 +72,4 @@ static int open_watcher(lua_State *L) {
   return 1;
 }
 
-void cs_service_add_watchers(lua_State *L) {
-  static const luaL_Reg services[] = {{"watcher", open_watcher}, {NULL, NULL}};
-  cs_service_add(L, services);
-}
+const luaL_Reg cs_services_watchers[] = {{"watcher", open_watcher}, {NULL, NULL}};

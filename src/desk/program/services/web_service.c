@@ -149,7 +149,4 @@ static int poll_sources(lua_State *L) {
   return 0;
 }
 
-void cs_service_add_web(lua_State *L) {
-  static const luaL_Reg services[] = {{"web", open_server}, {"poll", poll_sources}, {NULL, NULL}};
-  cs_service_add(L, services);
-}
+const luaL_Reg cs_services_web[] = {{"web", open_server}, {"poll", poll_sources}, {NULL, NULL}};

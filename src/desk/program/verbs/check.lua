@@ -89,9 +89,9 @@ end
 local slowest = { seconds = 0, total = 0 }
 
 --- Builds a frame, and adds the processor time that it needs.
-local function try_timed(film, number)
+local function try_timed(script, number)
   local began = os.clock()
-  local good, message, code = film:try(number)
+  local good, message, code = script:try(number)
   local seconds = os.clock() - began
   slowest.total = slowest.total + seconds
   if seconds > slowest.seconds then slowest.seconds, slowest.number = seconds, number end
@@ -99,18 +99,18 @@ local function try_timed(film, number)
 end
 
 --- Adds what is seen of a frame that was built, and the faults in its pictures.
-local function add_seen(film, survey, number)
-  film:faults(function(...) add_fault(number, ...) end)
+local function add_seen(script, survey, number)
+  script:faults(function(...) add_fault(number, ...) end)
   survey:add(number)
 end
 
-local function first_pass(film, survey, numbers, scenes)
+local function first_pass(script, survey, numbers, scenes)
   for i, number in ipairs(numbers) do
     if program.is_stopped() then return i - 1 end
-    local good, message, code = try_timed(film, number)
+    local good, message, code = try_timed(script, number)
     if good then
-      scenes[i] = film:scene()
-      program.until_stopped(add_seen, film, survey, number)
+      scenes[i] = script:scene()
+      program.until_stopped(add_seen, script, survey, number)
     else
       add_fault(number, "", message, code)
     end
@@ -120,8 +120,8 @@ end
 
 --- Whether a frame that is built again has a different scene. false if the scenes cannot be
 --- compared.
-local function differs(film, number, scene)
-  return scene and not (film:try(number) and film:scene() == scene)
+local function differs(script, number, scene)
+  return scene and not (script:try(number) and script:scene() == scene)
 end
 
 --- The first frame of the sample whose scene differs, and the film in which it does; nil: none.
@@ -136,29 +136,29 @@ local function first_that_differs(fresh, numbers, scenes)
 end
 
 local function check_again(fresh, numbers, scenes)
-  local found, film = first_that_differs(fresh, numbers, scenes)
+  local found, script = first_that_differs(fresh, numbers, scenes)
   for i = found and #numbers or 0, 1, -1 do
     if program.is_stopped() then return end
-    if i == found or differs(film, numbers[i], scenes[i]) then
+    if i == found or differs(script, numbers[i], scenes[i]) then
       add_fault(numbers[i], "", program.impure, SCRIPT)
     end
   end
 end
 
 --- The film of the script after running it again; nil and an exit code: reported.
-local function fresh_film(film)
-  local good, fresh = pcall(program.film, nil, true)
-  if good and fresh.first == film.first and fresh.frames == film.frames then return fresh end
-  if good then program.error("%s", program.other_frames(fresh, film)) end
+local function fresh_film(script)
+  local good, fresh = pcall(program.script, nil, true)
+  if good and fresh.first == script.first and fresh.frames == script.frames then return fresh end
+  if good then program.error("%s", program.other_frames(fresh, script)) end
   others[#others + 1] = program.reported()
   return nil, good and SCRIPT or program.outcome()
 end
 
 --- The films for the other passes; nil and an exit code: reported.
-local function fresh_films(film)
+local function fresh_films(script)
   local films = {}
   for i = 1, STATES do
-    local fresh, code = fresh_film(film)
+    local fresh, code = fresh_film(script)
     if not fresh then return nil, code end
     films[i] = fresh
   end
@@ -166,25 +166,25 @@ local function fresh_films(film)
 end
 
 --- The numbers of the part that follows the first `done` frames.
-local function part_of(film, listed, done, count)
+local function part_of(script, listed, done, count)
   local numbers = {}
   for i = done + 1, math.min(done + PART, count) do
-    numbers[#numbers + 1] = listed and listed[i] or film.first + i - 1
+    numbers[#numbers + 1] = listed and listed[i] or script.first + i - 1
   end
   return numbers
 end
 
 --- Returns the number of frames that were built, and the exit code if something ended this early,
 --- otherwise nil.
-local function check_parts(film, survey, listed, count)
+local function check_parts(script, survey, listed, count)
   local done, fresh = 0
   while done < count and not program.is_stopped() do
-    local numbers, scenes = part_of(film, listed, done, count), {}
-    done = done + first_pass(film, survey, numbers, scenes)
+    local numbers, scenes = part_of(script, listed, done, count), {}
+    done = done + first_pass(script, survey, numbers, scenes)
     if program.is_stopped() then break end
     if not fresh then
       local code
-      fresh, code = fresh_films(film)
+      fresh, code = fresh_films(script)
       if not fresh then return done, code end
     end
     program.until_stopped(check_again, fresh, numbers, scenes)
@@ -293,29 +293,29 @@ end
 
 --- The film of the script. If it cannot be opened, this is the only fault.
 local function open()
-  local good, film = pcall(program.film)
-  if good then return film end
-  others[1] = program.reported() or tostring(film)
+  local good, script = pcall(program.script)
+  if good then return script end
+  others[1] = program.reported() or tostring(script)
   print_json {}
   return nil, program.outcome()
 end
 
-local film, failed
+local script, failed
 if request.json then
-  film, failed = open()
-  if not film then return failed end
+  script, failed = open()
+  if not script then return failed end
 else
-  film = program.film()
+  script = program.script()
 end
-local listed = request.frames and film:numbers()
-local count = listed and #listed or film.frames
-local tracks = film:check_tracks()
+local listed = request.frames and script:numbers()
+local count = listed and #listed or script.frames
+local tracks = script:check_tracks()
 if tracks ~= 0 then others[1] = program.reported() end
-local survey = program.part("survey.lua", program, film)
-local done, ended = check_parts(film, survey, listed, count)
+local survey = program.part("survey.lua", program, script)
+local done, ended = check_parts(script, survey, listed, count)
 local warnings = program.until_stopped(warnings_of, survey) or {}
 if request.files then
-  print_files(program.part("reads.lua", program, film, request))
+  print_files(program.part("reads.lua", program, script, request))
 elseif request.json then
   print_json(warnings)
 end

@@ -20,15 +20,15 @@ local GAP, LABEL = 12, 24 -- between panels, and below them
 -- ---------------------------------------------------------------- a page
 
 --- A frame of the film at the size of a panel, as an image at x, y.
-local function panel_of(film, number, size, x, y)
-  local pixels = program.check(celspan.pixels(program.still(film, film:at(number)),
+local function panel_of(script, number, size, x, y)
+  local pixels = program.check(celspan.pixels(program.still(script, script:at(number)),
     { size = size, workers = math.tointeger(request.workers) }))
   return celspan.image { x = x, y = y, w = size[1], h = size[2], size = size, format = "rgba16",
     pixels = pixels:bytes { depth = 16, colour = "srgb", alpha = "straight" } }
 end
 
 --- The page with the frames of these numbers, and its size. path: for the progress.
-local function page_of(film, numbers, columns, panel, path)
+local function page_of(script, numbers, columns, panel, path)
   local w, h = panel[1], panel[2]
   local across, down = math.min(columns, #numbers), (#numbers - 1) // columns + 1
   local width, height = GAP + across * (w + GAP), GAP + down * (h + LABEL)
@@ -38,7 +38,7 @@ local function page_of(film, numbers, columns, panel, path)
     local count = #objects
     objects[count + 1] = celspan.rect { x - 1, y - 1, w + 2, h + 2, texture = "#8a8780" }
     objects[count + 2] = celspan.rect { x, y, w, h, texture = "#fff" }
-    objects[count + 3] = panel_of(film, number, panel, x, y)
+    objects[count + 3] = panel_of(script, number, panel, x, y)
     program.made_frame(number, path)
     objects[count + 4] = number_at(tostring(number), x + 1, y + h + 6)
   end
@@ -49,11 +49,11 @@ end
 
 --- A panel has the requested size, or else the proportions of the film; in this case it is not
 --- larger than the film, and fits on the page.
-local function panel_size(film, columns)
-  if request.size or request.scale then return { film:view_size() } end
+local function panel_size(script, columns)
+  if request.size or request.scale then return { script:view_size() } end
   local most = math.min(SHEET_MOST / columns, PANEL_MOST)
-  local scale, size = math.min(1, most / math.max(film.size[1], film.size[2])), {}
-  for i = 1, 2 do size[i] = math.max(PANEL_LEAST, math.floor(film.size[i] * scale + 0.5)) end
+  local scale, size = math.min(1, most / math.max(script.size[1], script.size[2])), {}
+  for i = 1, 2 do size[i] = math.max(PANEL_LEAST, math.floor(script.size[i] * scale + 0.5)) end
   return size
 end
 
@@ -68,9 +68,9 @@ local function thinned(numbers, every, most)
   return list
 end
 
-local function make_sheet(film, output)
+local function make_sheet(script, output)
   local grid = program.numbers(request.grid or "6x4")
-  local columns, panels, numbers = grid[1], grid[1] * grid[2], film:numbers()
+  local columns, panels, numbers = grid[1], grid[1] * grid[2], script:numbers()
   local every = math.tointeger(request.every) or (#numbers + panels - 1) // panels
   numbers = thinned(numbers, every, not request.every and panels)
   local shown = #numbers
@@ -79,12 +79,12 @@ local function make_sheet(film, output)
       .. "--every, or a name with a number, such as sheet.####.png", output, shown, columns,
       grid[2])
   end
-  local size = panel_size(film, columns)
+  local size = panel_size(script, columns)
   if size[1] * size[2] * math.min(panels, shown) > PAGE_MOST then
     program.fail("limit", "%d pictures of %d x %d pixels do not fit into memory: give a smaller "
       .. "--scale, --size or --grid", math.min(panels, shown), size[1], size[2])
   end
-  film:lay_onion(size[1], size[2])
+  script:lay_onion(size[1], size[2])
   program.count_frames(shown)
   for page = 1, (shown + panels - 1) // panels do
     local on_page = {}
@@ -92,7 +92,7 @@ local function make_sheet(film, output)
       on_page[#on_page + 1] = numbers[i + 1]
     end
     local path = program.check(core.frame_name(output, page))
-    local rostrum, width, height = page_of(film, on_page, columns, size, path)
+    local rostrum, width, height = page_of(script, on_page, columns, size, path)
     program.check(celspan.render(rostrum, path, { size = { width, height },
       workers = math.tointeger(request.workers) }))
   end
@@ -100,4 +100,4 @@ end
 
 if not request.output then program.usage "-o is missing: give -o sheet.png" end
 program.refuse_target(request.output)
-make_sheet(program.film(), request.output)
+make_sheet(program.script(), request.output)

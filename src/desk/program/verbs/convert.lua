@@ -54,14 +54,14 @@ end
 --- Adds the settings that give the pictures the title, the marks, the poster and the captions of a
 --- script, whose first frame is the first picture. Returns the name of a file that was written for
 --- them, or nil.
-local function carry(script, output, settings)
-  local film = program.film(script, true)
-  local marks, text, name = {}, film:captions(), beside(output, ".captions.srt")
+local function carry(path, output, settings)
+  local script = program.script(path, true)
+  local marks, text, name = {}, script:captions(), beside(output, ".captions.srt")
   local function add(key, value) settings[#settings + 1] = { key, value } end
-  for i, mark in ipairs(film.marks) do marks[i] = { mark.name, mark.frame - film.first + 1 } end
-  if film.title then add("title", film.title) end
+  for i, mark in ipairs(script.marks) do marks[i] = { mark.name, mark.frame - script.first + 1 } end
+  if script.title then add("title", script.title) end
   if #marks > 0 then add("marks", require "celspan.json".encode(marks)) end
-  if film.has_poster then add("poster", tostring(film.poster - film.first + 1)) end
+  if script.has_poster then add("poster", tostring(script.poster - script.first + 1)) end
   if text == "" then return nil end
   local file, message = io.open(name, "w")
   if not file or not file:write(text) or not file:close() then
@@ -128,4 +128,7 @@ if program.has_number(request[2]) then
 end
 program.refuse_target(request[2])
 if kind == "plane" then program.refuse_self(request[1], request[2]) end
-program.convert(request[1], request[2])
+if program.output(request[2]) == "planes" and not program.is_film(request[1]) then
+  program.usage("%s: a plane is made of a script or a drawing, not of a picture", request[2])
+end
+program.shown(request[1]):write(request[2])

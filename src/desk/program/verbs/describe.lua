@@ -34,18 +34,18 @@ local function put_text(text)
     moving(text), text.words, place_of(text))
 end
 
-local function put_film(film)
-  if film.title then facts:add("title", film.title) end
-  facts:add("size", film.size)
-  facts:add("fps", film.fps)
-  facts:set("first", film.first)
-  facts:set("last", film.first + film.frames - 1)
-  facts:line("frames %d-%d", film.first, film.first + film.frames - 1)
-  facts:add("seconds", film.frames / film.fps)
-  facts:set("sound", film.has_sound)
-  facts:line("sound %s", film.has_sound and "yes" or "no")
-  for _, mark in ipairs(film.marks) do
-    local from = (mark.frame - film.first) / film.fps
+local function put_film(script)
+  if script.title then facts:add("title", script.title) end
+  facts:add("size", script.size)
+  facts:add("fps", script.fps)
+  facts:set("first", script.first)
+  facts:set("last", script.first + script.frames - 1)
+  facts:line("frames %d-%d", script.first, script.first + script.frames - 1)
+  facts:add("seconds", script.frames / script.fps)
+  facts:set("sound", script.has_sound)
+  facts:line("sound %s", script.has_sound and "yes" or "no")
+  for _, mark in ipairs(script.marks) do
+    local from = (mark.frame - script.first) / script.fps
     facts:item("marks", { name = mark.name, frame = mark.frame, from = from }, "mark %d %.4g s %s",
       mark.frame, from, mark.name)
   end
@@ -71,19 +71,19 @@ local function put_survey(found)
   if found.more then facts:add("more", true) end
 end
 
-local film = program.film()
-local survey = program.part("survey.lua", program, film)
-local numbers, done = film:numbers(), 0
+local script = program.script()
+local survey = program.part("survey.lua", program, script)
+local numbers, done = script:numbers(), 0
 while done < #numbers and not program.is_stopped() do
   program.until_stopped(function()
-    film:build(numbers[done + 1])
+    script:build(numbers[done + 1])
     survey:add(numbers[done + 1])
     done = done + 1
   end)
 end
 
 facts:lists("marks", "shots", "parts", "texts", "empty", "frozen", "flashes", "unseen")
-put_film(film)
+put_film(script)
 put_survey(survey:facts())
 facts:finish()
 if done < #numbers then program.note("stopped after %d of %d frames", done, #numbers) end

@@ -284,17 +284,17 @@ local function refuse()
 end
 
 --- Frames per second as --fps takes them: 25, 30000/1001.
-local function rate_of(film)
-  local above = math.floor(film.fps * 1.001 + 0.5) * 1000
-  return film.fps == above / 1001 and above .. "/1001" or ("%.14g"):format(film.fps)
+local function rate_of(script)
+  local above = math.floor(script.fps * 1.001 + 0.5) * 1000
+  return script.fps == above / 1001 and above .. "/1001" or ("%.14g"):format(script.fps)
 end
 
 --- Refuses a video, whose frames are made by several tasks, and says how it is made of them.
-local function refuse_video(film, output)
+local function refuse_video(script, output)
   local frames = output:gsub("%.[^./]*$", "") .. ".####.png"
   program.usage("%s: a farm makes files of frames: give -o %s, and when all are there, make the "
     .. "video of them: celspan convert %s %s --fps %s%s", output, frames, quoted(frames),
-    quoted(output), rate_of(film), film.has_sound and " --sound " .. quoted(request[1]) or "")
+    quoted(output), rate_of(script), script.has_sound and " --sound " .. quoted(request[1]) or "")
 end
 
 --- How many tasks have the most of `chunk`.
@@ -306,19 +306,19 @@ local not_of_rows = setmetatable({ ["--table"] = true, ["--keep-going"] = true }
 --- Refuses what `render` would refuse of a task, or of a row, with this output. division: --task or
 --- --strip, with its value; nil: a row. Films of a table may differ in their size, unless it is
 --- given.
-local function refuse_run(film, output, division, value)
+local function refuse_run(script, output, division, value)
   local words = { request[1], "-o", output, "--resume", division, value }
-  film:refuse(program.pass_on(words, request, division and own or not_of_rows, {}),
+  script:refuse(program.pass_on(words, request, division and own or not_of_rows, {}),
     division or request.size or request.fit)
 end
 
 --- Sets the numbers of films and tasks. Every row is checked, but no frame is counted: films may
 --- differ in their length.
-local function count_rows(job, film)
-  local rows = program.part("rows.lua", program, request, film)
+local function count_rows(job, script)
+  local rows = program.part("rows.lua", program, request, script)
   for row in rows.next do
     refuse_name(row.output)
-    refuse_run(film, row.output)
+    refuse_run(script, row.output)
   end
   job.rows, job.output = rows.count, request.output
   job.chunk = math.tointeger(request.chunk) or CHUNK_ROWS
@@ -326,9 +326,9 @@ local function count_rows(job, film)
 end
 
 --- Sets the numbers of frames and tasks, and the output of each task.
-local function count_tasks(job, film)
-  if program.output(request.output) == "videos" then refuse_video(film, request.output) end
-  local numbers = film:numbers(request.output)
+local function count_tasks(job, script)
+  if program.output(request.output) == "videos" then refuse_video(script, request.output) end
+  local numbers = script:numbers(request.output)
   job.frames, job.tasks, job.output = #numbers, math.tointeger(request.strips), request.output
   job.numbers = numbers
   if request.strips then
@@ -336,11 +336,11 @@ local function count_tasks(job, film)
       program.usage("--strips divides one frame, and there are %d: name it with --frames", #numbers)
     end
     job.output = program.check(core.frame_name(request.output, numbers[1]))
-    refuse_run(film, strip_pattern(job.output, 1), "--strip", job.tasks .. "/" .. job.tasks)
+    refuse_run(script, strip_pattern(job.output, 1), "--strip", job.tasks .. "/" .. job.tasks)
   else
     job.chunk = math.tointeger(request.chunk) or CHUNK
     job.tasks = tasks_of(#numbers, job.chunk)
-    refuse_run(film, job.output, "--task", "1/" .. job.tasks)
+    refuse_run(script, job.output, "--task", "1/" .. job.tasks)
   end
 end
 
@@ -361,11 +361,11 @@ local configuration = os.getenv "OCIO"
 if configuration and configuration ~= "" and not request.ocio then
   table.insert(job.options, { name = "--ocio", value = configuration })
 end
-local film = program.film()
-if request.table then count_rows(job, film) else count_tasks(job, film) end
+local script = program.script()
+if request.table then count_rows(job, script) else count_tasks(job, script) end
 local text, message
 if request.openjd then
-  text, message = program.part("openjd.lua", program, film, job, names)
+  text, message = program.part("openjd.lua", program, script, job, names)
 else
   text, message = (request.slurm and slurm or commands)(job)
 end

@@ -13,8 +13,8 @@ local facts = program.part("facts.lua", program, request)
 
 --- Adds the names of a frame's values: one entry for each kind of value that has a name, in the
 --- order of the scene.
-local function add_names(film, names, frame)
-  film:names(function(kind, name, source, line)
+local function add_names(script, names, frame)
+  script:names(function(kind, name, source, line)
     local key = kind .. " " .. name
     local entry = names[key]
     if not entry and #names == NAMES_MOST then
@@ -32,8 +32,8 @@ local function add_names(film, names, frame)
 end
 
 --- Counts the frames that are not equal to one before.
-local function count_scene(film, total)
-  local scene = film:scene()
+local function count_scene(script, total)
+  local scene = script:scene()
   if scene and total.scenes[scene] then return end
   if scene and total.kept == DIFFERENT_MOST then
     total.is_least = true
@@ -43,28 +43,28 @@ local function count_scene(film, total)
   if scene then total.scenes[scene], total.kept = true, total.kept + 1 end
 end
 
-local function count_film(film)
+local function count_film(script)
   local total = { scenes = {}, kept = 0, different = 0, names = { last = {} }, most = { 0, 0, 0 } }
-  for number = film.first, film.first + film.frames - 1 do
-    film:build(number)
-    add_names(film, total.names, number)
-    count_scene(film, total)
-    for i, count in ipairs { film:counts() } do total.most[i] = math.max(total.most[i], count) end
+  for number = script.first, script.first + script.frames - 1 do
+    script:build(number)
+    add_names(script, total.names, number)
+    count_scene(script, total)
+    for i, count in ipairs { script:counts() } do total.most[i] = math.max(total.most[i], count) end
   end
   return total
 end
 
 --- For a film: the facts that it gives.
-local function put_film(film)
-  if film.title then facts:add("title", film.title) end
-  facts:add("frames", film.frames)
-  facts:add("first", film.first)
-  facts:add("last", film.first + film.frames - 1)
-  facts:add("fps", film.fps)
-  facts:add("seconds", film.frames / film.fps)
-  facts:add("size", film.size)
+local function put_film(script)
+  if script.title then facts:add("title", script.title) end
+  facts:add("frames", script.frames)
+  facts:add("first", script.first)
+  facts:add("last", script.first + script.frames - 1)
+  facts:add("fps", script.fps)
+  facts:add("seconds", script.frames / script.fps)
+  facts:add("size", script.size)
   facts:lists("marks", "named")
-  for _, mark in ipairs(film.marks) do
+  for _, mark in ipairs(script.marks) do
     facts:item("marks", mark, "mark %d %s", mark.frame, mark.name)
   end
 end
@@ -94,17 +94,17 @@ local function put_animation()
 end
 
 local function describe_film(kind)
-  local film = program.film()
-  local schema = film:ask("celspan.parameters", "schema", film.title or path:match "[^/]*$")
+  local script = program.script()
+  local schema = script:ask("celspan.parameters", "schema", script.title or path:match "[^/]*$")
   if request.parameters and request.json then
     io.write(schema)
     return
   end
-  if not request.json then io.write((film:ask("celspan.parameters", "lines", ""))) end
+  if not request.json then io.write((script:ask("celspan.parameters", "lines", ""))) end
   if request.parameters then return end
   facts:set("parameters", json.decode(schema).properties)
-  local total = count_film(film)
-  put_film(film)
+  local total = count_film(script)
+  put_film(script)
   if kind == "lottie" then put_animation() end
   put_count(total)
   facts:finish()

@@ -16,16 +16,16 @@ local tracks = program.part("tracked.lua")
 local bake = program.part("baked.lua", program)
 
 program.refuse_target(request.output)
-local film = program.film()
-local numbers = film:numbers()
+local script = program.script()
+local numbers = script:numbers()
 if #numbers > FRAMES_MOST then
   program.fail("limit", "%s: %d frames; a Lottie file of at most %d is written: choose some with "
     .. "--frames", request.output, #numbers, FRAMES_MOST)
 end
 local shapes = program.part("outlined.lua", text, keys,
-  program.part("painted.lua", text, film.space == "srgb"))
+  program.part("painted.lua", text, script.space == "srgb"))
 local layers = program.part("layered.lua", program, text, keys, shapes, tracks)(
-  { size = film.size, count = #numbers }, request.output)
+  { size = script.size, count = #numbers }, request.output)
 
 -- ---------------------------------------------------------------- frames
 
@@ -38,14 +38,14 @@ local function front_of(front)
 end
 
 local shared, frames, before = {}, {}, nil
-local pictures = bake.new { film = film, layers = layers, shapes = shapes, keys = keys,
+local pictures = bake.new { script = script, layers = layers, shapes = shapes, keys = keys,
   pool = program.part("pooled.lua", layers), path = request.output, numbers = numbers }
 for i, number in ipairs(numbers) do
-  local exposures = film:at(number)
-  local scene = film:scene()
+  local exposures = script:at(number)
+  local scene = script:scene()
   if not (before and scene and scene == before) then
     local structure = #exposures == 1 and exposures[1][2] == 1
-      and core.scenery(exposures[1][1], film.size[1], film.size[2], film.space, shared)
+      and core.scenery(exposures[1][1], script.size[1], script.size[2], script.space, shared)
       or { why = "a sum of exposures" }
     for _, cel in ipairs(structure) do cel.front = front_of(cel.front) end
     frames[i] = pictures:divide(structure, exposures, i)
@@ -59,7 +59,7 @@ end
 
 --- The ground of the film, as an item that fills the frame.
 local function ground_of(back)
-  local w, h = table.unpack(film.size)
+  local w, h = table.unpack(script.size)
   local data = { kind = "outline", rule = "nonzero",
     contours = { { 0, 0, 0, 0, w, 0, w, 0, w, 0, w, h, w, h, w, h, 0, h, 0, h, 0, h, 0, 0, 0, 0 } },
     fill = { kind = "flat", stops = { { 0, 1, 1, 1, 1 } } } }
@@ -87,7 +87,7 @@ for _, track in ipairs(tracks.align(lists, #numbers)) do layers:add(layers.main,
 local function markers()
   local places, list = {}, {}
   for i, number in ipairs(numbers) do places[number] = i - 1 end
-  for _, mark in ipairs(film.marks) do
+  for _, mark in ipairs(script.marks) do
     local place = places[mark.frame]
     if place then list[#list + 1] = { place, mark.name } end
   end
@@ -99,8 +99,8 @@ if layers:count() > LAYERS_SMOOTH then
   program.note("%s: %d layers, more than many players draw smoothly: put objects that stay in "
     .. "place into one group, which is one layer", request.output, layers:count())
 end
-if film.has_sound then program.note("%s: the sound of the film is left out", request.output) end
-local document = text.encode(layers:document(film, markers()))
+if script.has_sound then program.note("%s: the sound of the film is left out", request.output) end
+local document = text.encode(layers:document(script, markers()))
 if #document > json.most_bytes then
   program.note("%s: more than %d MiB, which celspan.lottie does not read again", request.output,
     json.most_bytes >> 20)

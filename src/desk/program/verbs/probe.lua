@@ -11,10 +11,10 @@ local function coordinate(name, text)
 end
 
 local x, y = coordinate("X", request[2]), coordinate("Y", request[3])
-local film = program.film()
-local frame, number = film:chosen()
+local script = program.script()
+local frame, number = script:chosen()
 local facts = program.part("facts.lua", program, request)
-local r, g, b, a = celspan.probe(program.still(film, frame), x, y)
+local r, g, b, a = celspan.probe(program.still(script, frame), x, y)
 if not r then program.check(nil, ("frame %d: %s"):format(number, g)) end
 for name, value in pairs { frame = number, x = x, y = y, r = r, g = g, b = b, a = a } do
   facts:set(name, value)

@@ -1,20 +1,7 @@
---- What every verb in Lua uses: the services of service.c, and the functions added to them here.
+--- Services that are written in Lua. They are loaded when a verb asks for the first of them.
 local program = ...
 
 program.path_most = 4095 -- the most bytes of the name of a file
-
-local fail, note, report = program.fail, program.note, program.error
-
---- "celspan: ..." on standard error.
-function program.note(...) note(string.format(...)) end
-
---- "celspan: error: ..." on standard error; the verb continues.
-function program.error(...) report(string.format(...)) end
-
---- Reports an error and ends the verb. kind: "usage", "script", "input", "output" or "limit".
-function program.fail(kind, ...) fail(kind, string.format(...)) end
-
-function program.usage(...) program.fail("usage", ...) end
 
 --- Refuses an output that is the plane which is read: it would be lost.
 function program.refuse_self(input, output)
@@ -22,11 +9,6 @@ function program.refuse_self(input, output)
   if is_file and program.resolve(input) == program.resolve(output) then
     program.usage("%s: the output is the plane that is read: give another name", output)
   end
-end
-
---- Runs a file that verbs share with these arguments, and returns its result.
-function program.part(name, ...)
-  return assert(load(program.text(name), "=" .. name, "t", _ENV))(...)
 end
 
 --- Whether a path has one of these endings, in upper or lower case.
@@ -44,8 +26,8 @@ end
 
 --- A frame of a film as a separate film in which it looks the same: for celspan.pixels,
 --- celspan.probe and program.write.
-function program.still(film, exposures)
-  return require "celspan".film { size = film.size, space = film.space,
+function program.still(script, exposures)
+  return require "celspan".film { size = script.size, space = script.space,
     frame = function() return exposures end }
 end
 
@@ -55,10 +37,11 @@ function program.pictured(path)
   local kind = program.kind(path)
   local is_film = kind == "script" or kind == "lottie"
   if kind == "picture" or is_film or kind == "folder" then return path end
-  local pixels, width, height, alpha = program.pixels(path)
-  local picture = require "celspan".picture { pixels = pixels, size = { width, height },
-    format = "rgba16" }
-  return picture, { width = width, height = height, alpha = alpha or nil }
+  local shown = program.shown(path)
+  local pixels, alpha = shown:pixels(path)
+  local picture = require "celspan".picture { pixels = pixels,
+    size = { shown.width, shown.height }, format = "rgba16" }
+  return picture, { width = shown.width, height = shown.height, alpha = alpha or nil }
 end
 
 --- The parts of a text between commas.
@@ -131,10 +114,10 @@ function program.sample(count, states)
 end
 
 --- The message for a script that returns another film when it is run again.
-function program.other_frames(fresh, film)
+function program.other_frames(fresh, script)
   return ("the script returned a film with other frames when it was run again: %d from number %d, "
     .. "not %d from number %d; let it return the same film each time"):format(fresh.frames,
-    fresh.first, film.frames, film.first)
+    fresh.first, script.frames, script.first)
 end
 
 --- Lets a document write itself to a file, or writes its text to standard output. subject: the

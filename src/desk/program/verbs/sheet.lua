@@ -39,9 +39,9 @@ if request.frames and not is_script then
 end
 if not is_script then program.refuse_rights() end
 
-local film = is_script and program.film()
-if film then film:kept("celspan.shots", "mark", "on") end -- the parts of a shot have its name
-local made = film and sheet.of(film, request.frames and { frames = film:numbers() })
+local script = is_script and program.script()
+if script then script:kept("celspan.shots", "mark", "on") end -- the parts of a shot have its name
+local made = script and sheet.of(script, request.frames and { frames = script:numbers() })
   or program.input(sheet.read(input))
 if request.json then return print(program.json(facts_of(made))) end
 if output and program.has_ending(output, ".csv") and not made.width then

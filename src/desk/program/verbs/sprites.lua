@@ -54,11 +54,11 @@ local function cut_out(bytes, width, box)
 end
 
 --- The sprites of a film, and for each of its frames { sprite =, box = }.
-local function read_frames(film, numbers, size)
+local function read_frames(script, numbers, size)
   local sprites, frames, known, pixels = {}, {}, {}, 0
   program.count_frames(#numbers)
   for i, number in ipairs(numbers) do
-    local image = program.check(celspan.pixels(program.still(film, film:at(number)),
+    local image = program.check(celspan.pixels(program.still(script, script:at(number)),
       { size = size, workers = workers }))
     local bytes = image:bytes()
     local box = box_of(bytes, size[1], size[2])
@@ -123,12 +123,12 @@ end
 local function rectangle(x, y, w, h) return { x = x, y = y, w = w, h = h } end
 
 --- The milliseconds of the frame in this place: together they are as long as the film.
-local function duration_of(film, place)
-  local function until_frame(count) return math.floor(count * 1000 / film.fps + 0.5) end
+local function duration_of(script, place)
+  local function until_frame(count) return math.floor(count * 1000 / script.fps + 0.5) end
   return until_frame(place) - until_frame(place - 1)
 end
 
-local function atlas_of(film, frames, size, sheet, output)
+local function atlas_of(script, frames, size, sheet, output)
   local stem, listed = output:match "([^/]*)%.[^./]*$", {}
   for i, one in ipairs(frames) do
     local box, sprite = one.box, one.sprite
@@ -136,16 +136,16 @@ local function atlas_of(film, frames, size, sheet, output)
       frame = rectangle(sprite.x, sprite.y, sprite.w, sprite.h), rotated = false,
       trimmed = box[3] < size[1] or box[4] < size[2],
       spriteSourceSize = rectangle(table.unpack(box)), sourceSize = { w = size[1], h = size[2] },
-      duration = duration_of(film, i) }
+      duration = duration_of(script, i) }
   end
   return { frames = listed, meta = { app = "celspan", version = celspan._VERSION:match "%S+$",
     image = output:match "[^/]*$", format = "RGBA8888", scale = ("%g"):format(request.scale or 1),
     size = { w = sheet[1], h = sheet[2] } } }
 end
 
-local function make_sprites(film, output)
-  local size = { film:view_size() }
-  local sprites, frames = read_frames(film, film:numbers(), size)
+local function make_sprites(script, output)
+  local size = { script:view_size() }
+  local sprites, frames = read_frames(script, script:numbers(), size)
   local sheet = lay_out(sprites)
   if math.max(sheet[1], sheet[2]) > SHEET_MOST then
     program.fail("limit", "%s: the sheet would have %d x %d pixels, and at most %d a side: give "
@@ -153,7 +153,7 @@ local function make_sprites(film, output)
   end
   write_sheet(sprites, sheet, output)
   program.save((output:gsub("%.[^./]*$", ".json")),
-    program.json(atlas_of(film, frames, size, sheet, output)) .. "\n")
+    program.json(atlas_of(script, frames, size, sheet, output)) .. "\n")
 end
 
 if not request.output then program.usage "-o is missing: give -o sheet.png" end
@@ -162,4 +162,4 @@ if not program.has_ending(request.output, ".png", ".tga", ".tif", ".tiff") then
     request.output)
 end
 program.refuse_target(request.output)
-make_sprites(program.film(), request.output)
+make_sprites(program.script(), request.output)

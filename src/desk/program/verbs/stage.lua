@@ -21,12 +21,12 @@ local TREE_MOST = 2000     -- cels and objects of a frame's tree
 local SKIN_MOST = 2048     -- pixels of a side of an onion skin
 
 local requests = program.stage()
-local film
+local script
 local parts -- the shots of a cut; nil: the film is not a cut
 
 local function put(head, bytes)
   head.files = {}
-  for mark, path in (film and film:files() or ""):gmatch "([+-])(%Z+)%z" do
+  for mark, path in (script and script:files() or ""):gmatch "([+-])(%Z+)%z" do
     head.files[#head.files + 1] = { path, mark == "+" }
   end
   local text = program.json(head)
@@ -53,7 +53,7 @@ end
 --- The parameters of the film in the order of the script, each described as in JSON Schema.
 local function parameters()
   local list, places = {}, {}
-  local described = film:kept("celspan.parameters", "schema", "")
+  local described = script:kept("celspan.parameters", "schema", "")
   if described == "" then return { list = {} } end
   local text = texts.read(request[1], SCRIPT_MOST) or ""
   local schema = assert(json.decode(described))
@@ -72,20 +72,20 @@ local function parameters()
 end
 
 function answers.film()
-  local facts = { frames = film.frames, first = film.first, poster = film.poster, fps = film.fps,
-                  size = film.size, title = film.title, marks = { list = film.marks },
-                  sound = film.has_sound }
+  local facts = { frames = script.frames, first = script.first, poster = script.poster,
+                  fps = script.fps, size = script.size, title = script.title,
+                  marks = { list = script.marks }, sound = script.has_sound }
   facts.shots = parts and { list = parts }
   put { good = true, film = facts, parameters = parameters() }
 end
 
 --- Builds a frame. by: the frame whose camera is used, or nil.
 local function build_seen(number, by)
-  if not by then return film:try(number) end
-  local good, message, code = film:try(by)
-  if good then film:hold_camera() end
-  if good then good, message, code = film:try(number) end
-  if good then return film:use_camera() end
+  if not by then return script:try(number) end
+  local good, message, code = script:try(by)
+  if good then script:hold_camera() end
+  if good then good, message, code = script:try(number) end
+  if good then return script:use_camera() end
   return good, message, code
 end
 
@@ -110,15 +110,15 @@ local function build_onion(ask)
     if one[2]:find "h" then hidden[#hidden + 1] = one[1] end
   end
   local labels = lines_of(ask.skins) .. lines_of(hidden)
-  return film:onion(ask.number, ask.onion[1], ask.onion[2], math.max(1, math.floor(shrunk * w)),
+  return script:onion(ask.number, ask.onion[1], ask.onion[2], math.max(1, math.floor(shrunk * w)),
     math.max(1, math.floor(shrunk * h)), labels)
 end
 
 --- Calls a function while `celspan.shots` does something, which ends also after an error in it.
 local function during(what, value, ending, call, ...)
-  film:ask("celspan.shots", what, value)
+  script:ask("celspan.shots", what, value)
   local results = table.pack(pcall(call, ...))
-  local is_ended, fault = pcall(film.ask, film, "celspan.shots", what, ending)
+  local is_ended, fault = pcall(script.ask, script, "celspan.shots", what, ending)
   if not results[1] then error(results[2], 0) end
   if not is_ended then error(fault, 0) end
   return table.unpack(results, 2, results.n)
@@ -135,7 +135,7 @@ local before = "," -- those that the script has read before any frame
 
 --- Those and the points that the script has read since this was asked for last.
 local function with_points(known)
-  for name in film:kept("celspan.parameters", "reads", ""):gmatch "[^,]+," do
+  for name in script:kept("celspan.parameters", "reads", ""):gmatch "[^,]+," do
     if not known:find("," .. name, 1, true) then known = known .. name end
   end
   return known
@@ -158,7 +158,7 @@ local function build(ask)
     good, message, code = marked(build_seen, ask.number, ask.camera)
   end
   if good and ask.cels then
-    good, message = film:alter(letters_of(ask.cels), parts ~= nil)
+    good, message = script:alter(letters_of(ask.cels), parts ~= nil)
   end
   if not good then refuse(message, code) end
   note_points(ask)
@@ -169,7 +169,7 @@ end
 local function of_view(ask, method, ...)
   local w, h = table.unpack(ask.size)
   local x, y, width, height = table.unpack(ask.crop)
-  return film[method](film, w, h, x, y, width, height, ...)
+  return script[method](script, w, h, x, y, width, height, ...)
 end
 
 --- ask.made: { file, line [, name [, label]] }: only what this line made is shown, of that name and
@@ -178,8 +178,8 @@ end
 function answers.frame(ask)
   local began = program.clock()
   if not build(ask) then return end
-  local head = { good = true, begun = true, camera = film:camera() }
-  if ask.made then film:keep_line(table.unpack(ask.made)) end
+  local head = { good = true, begun = true, camera = script:camera() }
+  if ask.made then script:keep_line(table.unpack(ask.made)) end
   head.seconds = program.clock() - began
   local is_begun, message = of_view(ask, "draw", ask.what, ask.workers, requests)
   if not is_begun then return refuse(("frame %d: %s"):format(ask.number, message)) end
@@ -200,9 +200,9 @@ end
 --- The frames, of the first SHEET_MOST, in which a line made something: `runs`, { first, last }.
 function answers.made(ask)
   local runs = { list = {} }
-  for i = 1, math.min(film.frames, SHEET_MOST) do
-    local number, last = film.first + i - 1, runs.list[#runs.list]
-    if film:try(number) and film:keep_line(ask.file, ask.line) then
+  for i = 1, math.min(script.frames, SHEET_MOST) do
+    local number, last = script.first + i - 1, runs.list[#runs.list]
+    if script:try(number) and script:keep_line(ask.file, ask.line) then
       if last and last[2] == number - 1 then
         last[2] = number
       else
@@ -217,7 +217,7 @@ end
 --- seen more come first. And a message, if they are not all.
 local function hits_of(x, y)
   local hits, places = {}, {}
-  local message = film:hits(x, y, function(hit)
+  local message = script:hits(x, y, function(hit)
     hits[#hits + 1], places[hit] = hit, #hits
   end, parts ~= nil)
   table.sort(hits, function(a, b)
@@ -228,9 +228,9 @@ local function hits_of(x, y)
 end
 
 function answers.at(ask)
-  film:keep_callers(true)
+  script:keep_callers(true)
   local is_built = build(ask)
-  film:keep_callers(false)
+  script:keep_callers(false)
   if not is_built then return end
   local hits, message = hits_of(ask.x, ask.y)
   if message then return refuse(message) end
@@ -242,7 +242,7 @@ end
 --- once.
 local function tree_of()
   local tree, exposures, shot = {}, {}, nil
-  film:tree(TREE_MOST, parts ~= nil, function(depth, kind, name, source, line, own, label,
+  script:tree(TREE_MOST, parts ~= nil, function(depth, kind, name, source, line, own, label,
                                               exposure)
     if depth == 0 then shot = own ~= "" and own or nil end
     if label and shot then label = shot .. "/" .. label end
@@ -262,10 +262,10 @@ end
 --- The exposure sheet of the frames `from` to `to`, of which the first is 1; nil: refused.
 local function sheet_of(from, to)
   local numbers = {}
-  for number = from or 1, to or math.min(film.frames, SHEET_MOST) do
-    numbers[#numbers + 1] = film.first + number - 1
+  for number = from or 1, to or math.min(script.frames, SHEET_MOST) do
+    numbers[#numbers + 1] = script.first + number - 1
   end
-  local good, made = pcall(require "celspan.sheet".of, film, { frames = numbers })
+  local good, made = pcall(require "celspan.sheet".of, script, { frames = numbers })
   if good then return made end
   refuse(program.reported() or tostring(made))
 end
@@ -283,7 +283,7 @@ end
 local function new_labels()
   return setmetatable({}, { __index = function(frames, number)
     local labels, owners, cel = {}, {}, nil
-    for _, one in ipairs(marked(film.try, film, number) and tree_of() or {}) do
+    for _, one in ipairs(marked(script.try, script, number) and tree_of() or {}) do
       if one.label or one.depth == 0 then cel = one.label end
       if one.label then labels[cel] = true end
       if one.name and not one.label then owners[one.name] = owners[one.name] or cel end
@@ -298,7 +298,7 @@ end
 local function label_of(labels, name, cells, shot)
   for _, cell in ipairs(cells.list) do
     if cell[2] ~= "" then
-      local known, longer = labels[film.first + cell[1] - 1], shot and shot.name .. "/" .. name
+      local known, longer = labels[script.first + cell[1] - 1], shot and shot.name .. "/" .. name
       if known.labels[longer or ""] then return longer end
       if known.labels[name] then return name end
       return nil, known.owners[name:match "[^/]*$"]
@@ -340,10 +340,10 @@ end
 --- A row for each layer, the nearest first; in a cut those of a shot together. cel: the label of
 --- the cel that the layer is; of: that of the cel that it is a part of.
 function answers.rows()
-  local rows, last = {}, math.min(film.frames, SHEET_MOST)
+  local rows, last = {}, math.min(script.frames, SHEET_MOST)
   for place, shot in ipairs(parts or {}) do
     -- in its transitions the cels of other shots are left out
-    local alone = ("%d %d"):format(film.frames, place)
+    local alone = ("%d %d"):format(script.frames, place)
     if shot.from <= last and not during("isolate", alone, "", add_shot, rows, shot, last) then
       return
     end
@@ -359,7 +359,7 @@ end
 --- The first `count` shapes of the mouths that the film has read, as rows.
 local function lips_of(count)
   local rows = { list = {} }
-  for path, shapes in film:kept("celspan.mouths", "kept_text", ""):gmatch "(%Z*)%z(%Z*)%z" do
+  for path, shapes in script:kept("celspan.mouths", "kept_text", ""):gmatch "(%Z*)%z(%Z*)%z" do
     local row = { name = path:match "[^/]*$", cells = { list = {} } }
     for frame, shape in shapes:gmatch "(%d+) ([^\n]*)\n" do
       if math.tointeger(frame) > count then break end
@@ -371,7 +371,7 @@ local function lips_of(count)
 end
 
 function answers.sound(ask)
-  local bytes, message = film:sound(ask.first, ask.count)
+  local bytes, message = script:sound(ask.first, ask.count)
   if not bytes then return refuse(message) end
   put({ good = true }, bytes)
 end
@@ -379,9 +379,9 @@ end
 --- The amplitude of the sound, in columns over the first SHEET_MOST frames, and the shapes of the
 --- mouths.
 function answers.wave(ask)
-  local count, columns = math.min(film.frames, SHEET_MOST), {}
-  if film.has_sound then
-    local bytes, message = film:wave(film.first, count, ask.columns)
+  local count, columns = math.min(script.frames, SHEET_MOST), {}
+  if script.has_sound then
+    local bytes, message = script:wave(script.first, count, ask.columns)
     if not bytes then return refuse(message) end
     for i = 1, #bytes do columns[i] = bytes:byte(i) end
   end
@@ -392,7 +392,7 @@ local scenes = {} -- of the frames that were checked, by number
 
 --- Adds the faults of the sound and the script.
 local function add_whole(faults)
-  if film:check_tracks() ~= 0 then faults[1] = { message = program.reported() } end
+  if script:check_tracks() ~= 0 then faults[1] = { message = program.reported() } end
   for _, message in ipairs(program.part("dropped.lua", program).of_script(request[1])) do
     faults[#faults + 1] = { message = message }
   end
@@ -402,17 +402,17 @@ end
 --- checks the sound and the script.
 function answers.check(ask)
   local faults, number, began = {}, ask.number, program.clock()
-  local last = film.first + film.frames - 1
-  if number == film.first then add_whole(faults) end
-  film:drop_warnings()
+  local last = script.first + script.frames - 1
+  if number == script.first then add_whole(faults) end
+  script:drop_warnings()
   repeat
-    local good, message = film:try(number)
+    local good, message = script:try(number)
     local function add(where, text)
       local message_of = where == "" and text or where .. ": " .. text
       faults[#faults + 1] = { frame = number, message = message_of }
     end
-    if good then film:faults(add) else add("", message) end
-    scenes[number] = good and film:scene()
+    if good then script:faults(add) else add("", message) end
+    scenes[number] = good and script:scene()
     number = number + 1
   until number > last or program.clock() - began > CHECK_SECONDS
   put { good = true, number = number, faults = faults }
@@ -424,12 +424,12 @@ local again -- the film of the script after it was run again
 local function open_again()
   local is_open, fresh
   if again then return nil end
-  is_open, fresh = pcall(program.film, nil, true)
+  is_open, fresh = pcall(program.script, nil, true)
   if not is_open then return program.reported() or tostring(fresh) end
   again = fresh
   again:keep_callers(false)
-  if fresh.first ~= film.first or fresh.frames ~= film.frames then
-    return program.other_frames(fresh, film)
+  if fresh.first ~= script.first or fresh.frames ~= script.frames then
+    return program.other_frames(fresh, script)
   end
 end
 
@@ -437,7 +437,7 @@ end
 local function is_pure(number)
   local scene = scenes[number]
   -- another process has checked it
-  if scene == nil then scene = film:try(number) and film:scene() end
+  if scene == nil then scene = script:try(number) and script:scene() end
   return not scene or again:try(number) and again:scene() == scene
 end
 
@@ -458,7 +458,7 @@ function answers.again(ask)
   if message then return put { good = true, faults = { { message = message } } } end
   local places = places_again(ask)
   repeat
-    local number = film.first + places[at] - 1
+    local number = script.first + places[at] - 1
     if not is_pure(number) then
       faults[#faults + 1] = { frame = number, impure = true,
                               message = ("frame %d: %s"):format(number, program.impure) }
@@ -470,19 +470,19 @@ end
 
 -- ---------------------------------------------------------------- requests
 
-local good, made = pcall(program.film, request[1])
+local good, made = pcall(program.script, request[1])
 if good then
-  film = made
-  film:keep_callers(false)
-  local text = film:kept("celspan.shots", "text", tostring(film.frames))
+  script = made
+  script:keep_callers(false)
+  local text = script:kept("celspan.shots", "text", tostring(script.frames))
   parts = text ~= "" and json.decode(text) or nil
   before = with_points(before)
 end
 
 local function answer(text)
   local ask = assert(json.decode(text))
-  if not film then return refuse(program.reported() or tostring(made), program.outcome()) end
-  film:silence(ask.want ~= "frame")
+  if not script then return refuse(program.reported() or tostring(made), program.outcome()) end
+  script:silence(ask.want ~= "frame")
   local is_answered, fault = pcall(answers[ask.want], ask)
   if not is_answered then refuse(program.reported() or tostring(fault)) end
 end

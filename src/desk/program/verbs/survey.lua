@@ -8,11 +8,11 @@
 -- A frame with the scene of the one before is not looked at again, and a frame without a picture
 -- not at all: with scan-line procedures, or pictures that cannot be read. What is kept depends on
 -- how many parts, stretches and texts with different words there are.
-local program, film = ...
+local program, script = ...
 local celspan = require "celspan"
 local core = require "celspan.core"
 local flashes = program.part("flashes.lua")
-local texts = program.part("texts.lua", film)
+local texts = program.part("texts.lua", script)
 
 local survey = {}
 survey.__index = survey
@@ -29,14 +29,14 @@ local CUT_RATIO = 3    -- and how many times greater it is than the changes befo
 
 --- A picture of the whole frame, with this many pixels along its longer side.
 local function grid(count, antialias)
-  local scale = math.min(1, count / math.max(film.size[1], film.size[2]))
-  return { size = { math.max(1, math.floor(film.size[1] * scale + 0.5)),
-                    math.max(1, math.floor(film.size[2] * scale + 0.5)) }, antialias = antialias }
+  local scale = math.min(1, count / math.max(script.size[1], script.size[2]))
+  return { size = { math.max(1, math.floor(script.size[1] * scale + 0.5)),
+                    math.max(1, math.floor(script.size[2] * scale + 0.5)) }, antialias = antialias }
 end
 
 local function new()
   return setmetatable({ points = grid(POINTS, "none"), areas = grid(AREAS, "area"),
-                        texts = texts.new(), flashes = flashes.new(film.fps, SEEMS),
+                        texts = texts.new(), flashes = flashes.new(script.fps, SEEMS),
                         parts = {}, on = {}, looked = {}, empty = {}, frozen = {},
                         unseen = {}, cuts = {}, count = 0 }, survey)
 end
@@ -46,7 +46,7 @@ end
 --- The relative luminances and the alphas of a picture over black, and whether it has one colour;
 --- nil: it cannot be made.
 local function look(exposures, view)
-  local good, image = pcall(celspan.pixels, program.still(film, exposures), view)
+  local good, image = pcall(celspan.pixels, program.still(script, exposures), view)
   if not good or not image then return nil end
   local bytes = image:bytes { depth = "float", colour = "linear", alpha = "premultiplied" }
   local lights, alphas, at, is_plain = {}, {}, 1, true
@@ -74,7 +74,7 @@ local function add_frame(list, frame)
   return list[#list]
 end
 
-local function seconds(stretch) return (stretch.last - stretch.first + 1) / film.fps end
+local function seconds(stretch) return (stretch.last - stretch.first + 1) / script.fps end
 
 --- The stretches that are long enough.
 local function lasting(list)
@@ -91,7 +91,7 @@ end
 --- the frame shows the same as the one before, the sheet holds it.
 function survey:has_asked()
   local before = self.asked
-  self.asked = film:ask("celspan.columns", "lookups", "")
+  self.asked = script:ask("celspan.columns", "lookups", "")
   return before ~= nil and before ~= self.asked
 end
 
@@ -206,9 +206,9 @@ end
 
 --- Examines the frame that was built last.
 function survey:add_new(number)
-  local parts = core.parts(film:exposures(), film.size[1], film.size[2])
-  local lights, _, is_plain = look(film:exposures(), self.points)
-  if is_plain then is_plain = select(3, look(film:exposures(), self.areas)) end
+  local parts = core.parts(script:exposures(), script.size[1], script.size[2])
+  local lights, _, is_plain = look(script:exposures(), self.points)
+  if is_plain then is_plain = select(3, look(script:exposures(), self.areas)) end
   self:add_parts(number, parts)
   self.is_plain = is_plain
   if not lights then
@@ -224,7 +224,7 @@ end
 
 --- Adds the frame `number`, which was built last.
 function survey:add(number)
-  local scene, has_asked = film:scene(), self:has_asked()
+  local scene, has_asked = script:scene(), self:has_asked()
   if self.number ~= number - 1 then self:cut() end
   self.number = number
   add_frame(self.looked, number)
@@ -260,14 +260,14 @@ function survey:blank() return lasting(self.empty) end
 
 --- Examines a stretch of frames with a suspected flash, and the second before it, again by areas.
 function survey:add_sure(list, stretch)
-  local sure, first = flashes.new(film.fps), stretch.first
+  local sure, first = flashes.new(script.fps), stretch.first
   for _, run in ipairs(self.looked) do
     if stretch.first >= run.first and stretch.first <= run.last then
-      first = math.max(run.first, stretch.first - math.ceil(film.fps))
+      first = math.max(run.first, stretch.first - math.ceil(script.fps))
     end
   end
   for number = first, stretch.last do
-    local lights = film:try(number) and look(film:exposures(), self.areas)
+    local lights = script:try(number) and look(script:exposures(), self.areas)
     if lights then sure:add(number, lights) end
     collectgarbage()
   end
@@ -277,9 +277,9 @@ end
 --- The stretches that flash. In fine patterns that move, points flash, but areas do not.
 function survey:flashing()
   local list = {}
-  film:silence(true) -- the output of the script for these frames has been shown already
+  script:silence(true) -- the output of the script for these frames has been shown already
   for _, stretch in ipairs(self.flashes.list) do self:add_sure(list, stretch) end
-  film:silence(false)
+  script:silence(false)
   return list
 end
 
@@ -287,8 +287,8 @@ end
 function survey:shown_seconds(text)
   for _, run in ipairs(self.looked) do
     if text.first >= run.first and text.last <= run.last then
-      local begins = text.first > run.first or text.first == film.first
-      local ends = text.last < run.last or text.last == film.first + film.frames - 1
+      local begins = text.first > run.first or text.first == script.first
+      local ends = text.last < run.last or text.last == script.first + script.frames - 1
       return begins and ends and seconds(text) or nil
     end
   end
@@ -342,8 +342,8 @@ function survey:facts()
   local function timed(stretch, more)
     more = more or {}
     more.first, more.last = stretch.first, stretch.last
-    more.from = (stretch.first - film.first) / film.fps
-    more.to = (stretch.last - film.first + 1) / film.fps
+    more.from = (stretch.first - script.first) / script.fps
+    more.to = (stretch.last - script.first + 1) / script.fps
     return more
   end
   local function all(stretches, make)

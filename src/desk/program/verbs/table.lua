@@ -203,7 +203,7 @@ if request.hash then program.usage("--table renders several films: leave --hash 
 if request.report then program.usage("--report is of one film: leave it or --table out") end
 if request.files then program.usage "--table checks several films: leave --files out" end
 if request.json then program.usage("--table checks several films: leave --json out") end
-local rows = program.part("rows.lua", program, request, program.film())
+local rows = program.part("rows.lua", program, request, program.script())
 local first, last = share_of(rows.count)
 local tally = new_tally(last - first + 1)
 if tally.count == 0 then return program.note("task %d of %d has no rows", program.task()) end

@@ -52,21 +52,21 @@ local places = part "places.lua".new(files)
 -- news: the number of changes that pages must know. here: the line that an editor has named.
 local state = { news = 1 }
 local held = {}    -- requests for news: id, over
-local waiting = {} -- requests for a film that is built later: id, wish, answer(), film, build, over
+local waiting = {} -- requests for a film that is built later: id, wish, answer(), side, build, over
 
 local function tell() state.news = state.news + 1 end
 
 -- The film, and the second film beside it, which requests name with side=2: of the second script,
--- or of the same script with other values. films: those that are shown.
+-- or of the same script with other values. sides: those that are shown.
 local first = watched.new(request[1], files, places, tell)
 local second = watched.new(request[2] or request[1], files, places, tell)
-local films = { first }
+local sides = { first }
 local renders = part "renders.lua".new(first, folder, tell)
 
 --- Shows or hides the second film.
 local function set_comparing(is_on)
-  if is_on == (films[2] ~= nil) then return end
-  films[2] = is_on and second or nil
+  if is_on == (sides[2] ~= nil) then return end
+  sides[2] = is_on and second or nil
   if is_on then second:build() else second:close "the second film is not shown any more" end
   tell()
 end
@@ -99,14 +99,14 @@ end
 local function describe_state()
   local said = first:describe()
   said.news, said.here, said.editor = state.news, state.here, request.editor ~= nil
-  said.alone, said.second = request.is_alone or false, films[2] and second:describe()
+  said.alone, said.second = request.is_alone or false, sides[2] and second:describe()
   said.has_two, said.render, said.folder = #request == 2, renders.said, folder
   return said
 end
 
 --- Asks the renderers, and sends their answer.
-local function pass_on(id, film, ask, give, wish)
-  film:ask(ask, function(...) attempt(id, give, ...) end,
+local function pass_on(id, side, ask, give, wish)
+  side:ask(ask, function(...) attempt(id, give, ...) end,
     function(status, message) refuse(id, status, message) end, wish)
 end
 
@@ -120,15 +120,15 @@ local function numbers(text, count)
 end
 
 --- Whether a film can be asked; if not, the request is refused.
-local function is_ready(id, film)
-  if film.is_shown then return true end
-  refuse(id, 409, film.errors[1] and film.errors[1].message or "the film is not ready yet")
+local function is_ready(id, side)
+  if side.is_shown then return true end
+  refuse(id, 409, side.errors[1] and side.errors[1].message or "the film is not ready yet")
 end
 
 --- The frame that a request is about; nil: refused.
-local function frame_of(id, film, text)
-  local number, facts = math.tointeger(text), film.facts
-  if not is_ready(id, film) then return nil end
+local function frame_of(id, side, text)
+  local number, facts = math.tointeger(text), side.facts
+  if not is_ready(id, side) then return nil end
   if not number or number < facts.first or number >= facts.first + facts.frames then
     local last = facts.first + facts.frames - 1
     refuse(id, 404, ("the film has frames %d to %d"):format(facts.first, last))
@@ -183,10 +183,10 @@ end
 
 --- The view that a request wants, in the words of the renderers: number, size, crop, cels; nil:
 --- refused.
-local function view_of(id, film, text, fields)
-  local number = frame_of(id, film, text)
+local function view_of(id, side, text, fields)
+  local number = frame_of(id, side, text)
   if not number then return nil end
-  local size = numbers(fields.size or request.size, 2) or not fields.size and film.facts.size
+  local size = numbers(fields.size or request.size, 2) or not fields.size and side.facts.size
   local crop = size and (not fields.crop and { 0, 0, size[1], size[2] } or numbers(fields.crop, 4))
   if not crop or not is_view(size, crop) then
     return refuse(id, 400, "write size=WxH and crop=X,Y,W,H: at most 1048576 pixels a side, and "
@@ -197,7 +197,7 @@ local function view_of(id, film, text, fields)
     return refuse(id, 400, "cels= must be a JSON object, such as {\"ground\": \"h\"}, with the "
       .. "letters h, l and f")
   end
-  local camera = fields.camera and frame_of(id, film, fields.camera)
+  local camera = fields.camera and frame_of(id, side, fields.camera)
   if fields.camera and not camera then return nil end
   return { number = number, size = size, crop = crop, cels = cels, camera = camera }
 end
@@ -215,94 +215,94 @@ local function add_show(id, ask, fields)
   return true
 end
 
-local function give_frame(id, film, text, fields, ending)
-  local ask = view_of(id, film, text, fields)
+local function give_frame(id, side, text, fields, ending)
+  local ask = view_of(id, side, text, fields)
   if not ask then return end
   ask.want, ask.what = "frame", ending
   if not add_show(id, ask, fields) or not add_onion(id, ask, fields) then return end
   if fields.show and ending ~= "rgba" then return refuse(id, 400, "show= needs /frame/N.rgba") end
   local kind = ending == "png" and "image/png" or "application/octet-stream"
-  pass_on(id, film, ask,
+  pass_on(id, side, ask,
     function(head, bytes)
       answer(id, 200, kind, bytes, "Celspan-Seconds", ("%.4f"):format(head.seconds),
         "Celspan-Camera", head.camera, "Celspan-Points", head.points)
     end, fields.wish)
 end
 
-local function give_costs(id, film, fields)
-  local ask = view_of(id, film, fields.frame or film.facts and film.facts.first, fields)
+local function give_costs(id, side, fields)
+  local ask = view_of(id, side, fields.frame or side.facts and side.facts.first, fields)
   if not ask then return end
   ask.want = "costs"
-  pass_on(id, film, ask, function(head)
+  pass_on(id, side, ask, function(head)
     for _, one in ipairs(head.costs) do
-      one.file = places:note(one.file, one.line, film)
+      one.file = places:note(one.file, one.line, side)
     end
     give_json(id, { list = head.costs })
   end)
 end
 
 --- Sends the frames with something that the line made which an editor has named last.
-local function give_made(id, film)
-  if not is_ready(id, film) then return end
+local function give_made(id, side)
+  if not is_ready(id, side) then return end
   if not state.here then return give_json(id, { list = {} }) end
-  pass_on(id, film, { want = "made", file = state.here.file, line = state.here.line },
+  pass_on(id, side, { want = "made", file = state.here.file, line = state.here.line },
     function(head) give_json(id, { list = head.runs }) end)
 end
 
 --- The run of frames of a text such as "1-48"; without a text, all frames; nil: refused.
-local function run_of(id, film, text)
-  local facts = film.facts
+local function run_of(id, side, text)
+  local facts = side.facts
   local from, to = (text or ""):match "^(%-?%d+)%-(%-?%d+)$"
   if not text and facts then from, to = facts.first, facts.first + facts.frames - 1 end
   if not from and text then return refuse(id, 400, "write frames=A-B, such as 1-48") end
-  local begin = frame_of(id, film, from)
-  local last = begin and frame_of(id, film, to)
+  local begin = frame_of(id, side, from)
+  local last = begin and frame_of(id, side, to)
   if last and last < begin then return refuse(id, 400, "frames=A-B: A is greater than B") end
   return last and begin, last
 end
 
-local function give_sound(id, film, fields)
-  local begin, last = run_of(id, film, fields.frames)
+local function give_sound(id, side, fields)
+  local begin, last = run_of(id, side, fields.frames)
   if not begin then return end
-  if not film.facts.sound then return refuse(id, 404, "the film has no sound") end
-  pass_on(id, film, { want = "sound", first = begin, count = last - begin + 1 },
+  if not side.facts.sound then return refuse(id, 404, "the film has no sound") end
+  pass_on(id, side, { want = "sound", first = begin, count = last - begin + 1 },
     function(_, bytes) answer(id, 200, "audio/wav", bytes) end)
 end
 
-local function give_wave(id, film, fields)
+local function give_wave(id, side, fields)
   local columns = math.tointeger(fields.columns or 1000)
-  if not is_ready(id, film) then return end
+  if not is_ready(id, side) then return end
   if not columns or columns < 1 or columns > COLUMNS_MOST then
     return refuse(id, 400, ("write columns=N, from 1 to %d"):format(COLUMNS_MOST))
   end
-  pass_on(id, film, { want = "wave", columns = columns },
+  pass_on(id, side, { want = "wave", columns = columns },
     function(_, text) answer(id, 200, "application/json", text) end)
 end
 
-local function give_point(id, film, x, y, fields)
-  local number = frame_of(id, film, fields.frame or film.facts and film.facts.first)
+local function give_point(id, side, x, y, fields)
+  local number = frame_of(id, side, fields.frame or side.facts and side.facts.first)
   x, y = tonumber(x), tonumber(y)
   if not number then return end
   if not x or not y or math.max(math.abs(x), math.abs(y)) > UNITS_MOST then
     return refuse(id, 400, "write /at/X,Y.json, in units of the film")
   end
-  pass_on(id, film, { want = "at", number = number, x = x, y = y },
+  pass_on(id, side, { want = "at", number = number, x = x, y = y },
     function(head)
       for _, hit in ipairs(head.hits) do
-        hit.file, hit.line = places:note(hit.file, hit.line, film)
-        hit.via, hit.callers = hit.callers, places:of_text(hit.callers, film)
+        hit.file, hit.line = places:note(hit.file, hit.line, side)
+        hit.via, hit.callers = hit.callers, places:of_text(hit.callers, side)
       end
       give_json(id, { list = head.hits })
     end)
 end
 
 --- Sends the tree of the cels and objects of a frame.
-local function give_objects(id, film, fields)
-  local number = frame_of(id, film, fields.frame or film.facts and film.facts.first)
+local function give_objects(id, side, fields)
+  local number = frame_of(id, side, fields.frame or side.facts and side.facts.first)
   if not number then return end
-  pass_on(id, film, { want = "tree", number = number }, function(head)
+  pass_on(id, side, { want = "tree", number = number }, function(head)
     for _, one in ipairs(head.tree) do
-      one.file, one.line = places:note(one.file, one.line, film)
+      one.file, one.line = places:note(one.file, one.line, side)
     end
     give_json(id, { list = head.tree })
   end)
@@ -332,10 +332,10 @@ local function give_text(id, name)
 end
 
 --- Sends the files that a parameter may name. fields: parameter=NAME.
-local function give_files(id, film, fields)
-  for _, one in ipairs(film.parameters or {}) do
+local function give_files(id, side, fields)
+  for _, one in ipairs(side.parameters or {}) do
     if one.name == fields.parameter and one.format == "path" then
-      return give_json(id, { list = choices.like(film.script, one.default) })
+      return give_json(id, { list = choices.like(side.script, one.default) })
     end
   end
   refuse(id, 404, "the film has no parameter of this name that is a file")
@@ -343,17 +343,17 @@ end
 
 --- A function for an address that sends data of a film as bytes of some kind.
 local function giving(want, kind)
-  return function(id, film)
-    if not is_ready(id, film) then return end
-    pass_on(id, film, { want = want }, function(_, text) answer(id, 200, kind, text) end)
+  return function(id, side)
+    if not is_ready(id, side) then return end
+    pass_on(id, side, { want = want }, function(_, text) answer(id, 200, kind, text) end)
   end
 end
 
 local gets = { -- of a film
-  ["/film.json"] = function(id, film)
-    if is_ready(id, film) then give_json(id, film.facts) end
+  ["/film.json"] = function(id, side)
+    if is_ready(id, side) then give_json(id, side.facts) end
   end,
-  ["/errors.json"] = function(id, film) give_json(id, { list = film.errors }) end,
+  ["/errors.json"] = function(id, side) give_json(id, { list = side.errors }) end,
   ["/sheet.txt"] = giving("sheet", "text/plain; charset=utf-8"),
   ["/sheet.json"] = giving("rows", "application/json"),
   ["/sound.wav"] = give_sound,
@@ -386,38 +386,38 @@ end
 
 --- The film that a request means: the second with side=2; nil: refused.
 local function side_of(id, fields)
-  local film = films[math.tointeger(fields.side or 1) or 0]
-  return film or refuse(id, 404, "there is no such film beside the first")
+  local side = sides[math.tointeger(fields.side or 1) or 0]
+  return side or refuse(id, 404, "there is no such film beside the first")
 end
 
 --- Answers a request for data of a film.
-local function give_of(id, film, path, fields)
-  if gets[path] then return gets[path](id, film, fields) end
+local function give_of(id, side, path, fields)
+  if gets[path] then return gets[path](id, side, fields) end
   local number, ending = path:match "^/frame/(%-?%d+)%.(%l+)$"
   if number and (ending == "png" or ending == "rgba" or ending == "runs") then
-    return give_frame(id, film, number, fields, ending)
+    return give_frame(id, side, number, fields, ending)
   end
   local x, y = path:match "^/at/(%-?[%d.]+),(%-?[%d.]+)%.json$"
-  if x then return give_point(id, film, x, y, fields) end
+  if x then return give_point(id, side, x, y, fields) end
   refuse(id, 404, "there is no such address")
 end
 
 --- Whether a request is about a film that is built for the first time, or of values that have not
 --- come yet.
 local function is_awaited(one)
-  local film = one.film
-  return film.is_building and not film.is_shown or one.build > film.build_number
+  local side = one.side
+  return side.is_building and not side.is_shown or one.build > side.build_number
 end
 
 local function route(id, path, fields)
   if pages[path] then return give_text(id, pages[path]) end
   if own[path] then return own[path](id, fields) end
-  local film = side_of(id, fields)
-  if not film then return end
+  local side = side_of(id, fields)
+  if not side then return end
   local build = math.tointeger(fields.build) or 0
-  local one = { id = id, wish = fields.wish, film = film, build = build,
-                over = program.clock() + (build > film.build_number and SOON or HELD),
-                answer = function() attempt(id, give_of, id, film, path, fields) end }
+  local one = { id = id, wish = fields.wish, side = side, build = build,
+                over = program.clock() + (build > side.build_number and SOON or HELD),
+                answer = function() attempt(id, give_of, id, side, path, fields) end }
   if is_awaited(one) then waiting[#waiting + 1] = one else one.answer() end
 end
 
@@ -427,30 +427,30 @@ local posts = {}
 --- Sets the values of parameters, { name = "text" }, and forgets all values that the page has given
 --- before. Those that cannot be are refused, each by itself, and names that the film does not have
 --- are left out: it may have lost them since the page has heard of them.
-posts["/parameters"] = function(id, given, film)
+posts["/parameters"] = function(id, given, side)
   for name, value in pairs(given) do
     if type(value) ~= "string" or value:find "%z" then
       return refuse(id, 400, ("no parameter can have such a value as that of '%s'"):format(name))
     end
   end
-  local values, refused = film:give_values(given)
-  give_json(id, { build = film.build_number, values = values, refused = refused })
+  local values, refused = side:give_values(given)
+  give_json(id, { build = side.build_number, values = values, refused = refused })
 end
 
 --- Gives up a request that waits for values.
-local function forget(film, wish)
+local function forget(side, wish)
   for i = #waiting, 1, -1 do
-    if waiting[i].film == film and waiting[i].wish == wish then
+    if waiting[i].side == side and waiting[i].wish == wish then
       refuse(table.remove(waiting, i).id, 503, "it is not wanted any more")
     end
   end
 end
 
 --- The picture that was requested with this `wish` is not wanted any more, { wish = }.
-posts["/abandon"] = function(id, given, film)
+posts["/abandon"] = function(id, given, side)
   if type(given.wish) ~= "string" then return refuse(id, 400, "write { \"wish\": ... }") end
-  film.pool:abandon(given.wish)
-  forget(film, given.wish)
+  side.pool:abandon(given.wish)
+  forget(side, given.wish)
   give_json(id, {})
 end
 
@@ -502,8 +502,8 @@ local function take_post(asked, path, fields)
   local given = json.decode(asked.body)
   if not posts[path] then return refuse(asked.id, 405, "nothing is changed by a POST there") end
   if type(given) ~= "table" then return refuse(asked.id, 400, "the body must be a JSON object") end
-  local film = side_of(asked.id, fields)
-  if film then posts[path](asked.id, given, film) end
+  local side = side_of(asked.id, fields)
+  if side then posts[path](asked.id, given, side) end
 end
 
 local function serve(asked)
@@ -534,7 +534,7 @@ local function give_films()
   for _, one in ipairs(waiting) do
     if is_awaited(one) and now < one.over then
       later[#later + 1] = one
-    elseif one.build > one.film.build_number then
+    elseif one.build > one.side.build_number then
       refuse(one.id, 503, "the values have not come")
     else
       one.answer()
@@ -556,12 +556,12 @@ end
 
 --- Lets every film do its work. Returns the milliseconds until there is more.
 local function step_films()
-  local changed, wait = files:take(films), -1
-  for _, film in ipairs(films) do
-    if changed[film] then film:build() end
-    film.pool:step()
-    film:check()
-    wait = soonest(wait, film.pool:wait(), film.check_state and 100 or -1)
+  local changed, wait = files:take(sides), -1
+  for _, side in ipairs(sides) do
+    if changed[side] then side:build() end
+    side.pool:step()
+    side:check()
+    wait = soonest(wait, side.pool:wait(), side.check_state and 100 or -1)
   end
   return wait
 end
@@ -575,7 +575,7 @@ local function step()
   programs.step()
   renders:step()
   local sources = { web:descriptor(), files:descriptor() }
-  for _, film in ipairs(films) do film.pool:add_descriptors(sources) end
+  for _, side in ipairs(sides) do side.pool:add_descriptors(sources) end
   renders:add_descriptors(sources)
   program.poll(soonest(web:run(), wait), sources)
 end
@@ -589,4 +589,4 @@ if request.open then programs.browse(address, "celspan-" .. guard.random()) end
 while not program.is_stopped() do step() end
 programs.close()
 renders:close()
-for _, film in ipairs(films) do film:close "celspan has ended" end
+for _, side in ipairs(sides) do side:close "celspan has ended" end

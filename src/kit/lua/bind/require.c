@@ -1,5 +1,7 @@
 #include "lua/bind/require.h"
 
+#include <lualib.h>
+#include <stdint.h>
 #include <string.h>
 
 /* Tables in the registry. */
@@ -9,6 +11,43 @@
 
 void cs_require_give(lua_State *L, const luaL_Reg *modules) {
   luaL_getsubtable(L, LUA_REGISTRYINDEX, OPENERS);
+  luaL_setfuncs(L, modules, 0);
+  lua_pop(L, 1);
+}
+
+/* __index; upvalue: a list of modules. Most of them are never asked for. */
+static int find_opener(lua_State *L) {
+  const luaL_Reg *module = lua_touserdata(L, lua_upvalueindex(1));
+  const char *name = lua_tostring(L, 2);
+  while (module->name && (!name || strcmp(module->name, name) != 0))
+    module++;
+  if (!module->name)
+    return 0;
+  lua_pushcfunction(L, module->func);
+  return 1;
+}
+
+/* Lets the table of that name in the registry have these modules. */
+static void offer(lua_State *L, const char *table, const luaL_Reg *modules) {
+  luaL_getsubtable(L, LUA_REGISTRYINDEX, table);
+  lua_createtable(L, 0, 1);
+  lua_pushlightuserdata(L, (void *)(uintptr_t)modules);
+  lua_pushcclosure(L, find_opener, 1);
+  lua_setfield(L, -2, "__index");
+  lua_setmetatable(L, -2);
+  lua_pop(L, 1);
+}
+
+void cs_require_offer(lua_State *L, const luaL_Reg *modules, const luaL_Reg *own) {
+  offer(L, OPENERS, own);
+  luaL_getsubtable(L, LUA_REGISTRYINDEX, LUA_LOADED_TABLE);
+  bool has_package = lua_getfield(L, -1, LUA_LOADLIBNAME) != LUA_TNIL;
+  lua_pop(L, 2);
+  if (!has_package) {
+    offer(L, LUA_PRELOAD_TABLE, modules);
+    return;
+  }
+  luaL_getsubtable(L, LUA_REGISTRYINDEX, LUA_PRELOAD_TABLE);
   luaL_setfuncs(L, modules, 0);
   lua_pop(L, 1);
 }
@@ -61,9 +100,19 @@ void cs_require_public(lua_State *L, const char *name) {
     luaL_error(L, "module '%s' not found", name);
 }
 
+static bool push_any(lua_State *L, const char *name) {
+  return push_module(L, LOADED, OPENERS, name) ||
+         push_module(L, LUA_LOADED_TABLE, LUA_PRELOAD_TABLE, name);
+}
+
+/* A state of the program has nothing at first but the module celspan, which gives it the others. */
 void cs_require_module(lua_State *L, const char *name) {
-  if (!push_module(L, LOADED, OPENERS, name))
-    cs_require_public(L, name);
+  if (push_any(L, name))
+    return;
+  cs_require_public(L, "celspan");
+  lua_pop(L, 1);
+  if (!push_any(L, name))
+    luaL_error(L, "module '%s' not found", name);
 }
 
 bool cs_require_is_loaded(lua_State *L, const char *name) {

@@ -15,6 +15,9 @@
 
 /* Gives the state private modules: functions that return them. Raises. */
 void cs_require_give(lua_State *L, const luaL_Reg *modules);
+/* Gives the state all modules: those of scripts, in package.preload, and celspan's own. Without the
+ * library package, the lists are searched instead of copied. Raises. */
+void cs_require_offer(lua_State *L, const luaL_Reg *modules, const luaL_Reg *own);
 /* Pushes the globals of celspan's own chunks. Raises. */
 void cs_require_push_globals(lua_State *L);
 

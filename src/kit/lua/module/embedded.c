@@ -54,10 +54,7 @@ void cs_embedded_open(lua_State *L) {
 #define PRIVATE_ROW(name, folder) {"celspan." #name, open_##name},
   static const luaL_Reg modules[] = {CS_PUBLIC(ROW) CS_PRIVATE(ROW) ROW(core, module){NULL, NULL}};
   static const luaL_Reg own[] = {CS_PRIVATE(PRIVATE_ROW){NULL, NULL}};
-  luaL_getsubtable(L, LUA_REGISTRYINDEX, LUA_PRELOAD_TABLE);
-  luaL_setfuncs(L, modules, 0);
-  lua_pop(L, 1);
-  cs_require_give(L, own);
+  cs_require_offer(L, modules, own);
 }
 
 /* ---------------------------------------------------------------- names */

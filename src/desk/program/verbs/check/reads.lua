@@ -1,5 +1,5 @@
 --- celspan check --files: the files that a film reads, for those who copy it to another machine.
-local program, film, request = ...
+local program, opened, request = ...
 
 local script = request[1]
 
@@ -36,7 +36,7 @@ end
 --- looked for and not found.
 local function reads()
   local list, seen, paths = {}, {}, given()
-  for path in film:files():gmatch "%+(%Z+)%z" do paths[#paths + 1] = path end
+  for path in opened:files():gmatch "%+(%Z+)%z" do paths[#paths + 1] = path end
   for _, path in ipairs(paths) do
     local sum, size = program.sha256(path)
     if sum and not seen[path] then

@@ -12,7 +12,7 @@
 --   Text1 ...                       arguments that a template cannot contain as they are
 --
 -- Sources: "Template Schemas, 2023-09" of the specification; the numbers below are its sections.
-local program, film, job, names = ...
+local program, opened, job, names = ...
 local json = require "celspan.json"
 
 local MOST_PARAMETERS, MOST_TEXT, MOST_NAME = 50, 1024, 128 -- 1.1, 2.5, 1.1.1
@@ -130,7 +130,7 @@ end
 --- --table gives values, the others too. files: how many other parameters there will be. Returns
 --- them with what the script declares of each.
 local function offered(given, files)
-  local declared = json.decode(film:ask("celspan.parameters", "schema", "")).properties
+  local declared = json.decode(opened:ask("celspan.parameters", "schema", "")).properties
   local all, some = {}, {}
   for name in pairs(declared) do
     if #name + #"Set_" <= MOST_IDENTIFIER then
@@ -184,19 +184,19 @@ end
 --- Builds the frames, so that the film says which files it reads. What fails is left to its task.
 --- Of a table, which has videos, the film with the script's own values is read.
 local function build()
-  for i = 1, job.numbers and #job.numbers or film.frames do
+  for i = 1, job.numbers and #job.numbers or opened.frames do
     if program.is_stopped() then return end
-    local number = job.numbers and job.numbers[i] or film.first + i - 1
-    if film:try(number) then film:faults(function() end) end
+    local number = job.numbers and job.numbers[i] or opened.first + i - 1
+    if opened:try(number) then opened:faults(function() end) end
   end
-  if program.output(job.output) == "videos" then film:check_tracks(true) end
+  if program.output(job.output) == "videos" then opened:check_tracks(true) end
 end
 
 --- The files that the film reads outside of the folders that are parameters.
 local function find_files()
   program.until_stopped(build)
   local paths = {}
-  for path in film:files():gmatch "%+(%Z+)%z" do
+  for path in opened:files():gmatch "%+(%Z+)%z" do
     local full = absolute(path)
     if program.entries(full) == false and not paths[full] and not is_in_folders(full) then
       paths[full] = true

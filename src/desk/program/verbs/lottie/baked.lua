@@ -14,7 +14,7 @@ Bake.__index = Bake
 
 local bake = {}
 
---- job: film, layers, shapes, keys and pool; path: of the output; numbers: of the frames.
+--- job: script, layers, shapes, keys and pool; path: of the output; numbers: of the frames.
 function bake.new(job)
   job.is_archive = program.has_ending(job.path, ".lottie")
   job.pictures, job.reasons, job.known, job.members, job.images = {}, {}, {}, {}, {}
@@ -39,7 +39,7 @@ function Bake:film_of(data, scale)
   local part = math.min(scale, IMAGE_MOST / math.max(w, h))
   local size = { math.max(1, math.ceil(w * part - NEAR)), math.max(1, math.ceil(h * part - NEAR)) }
   local object = data.object:translate(-left, -top):scale(size[1] / w, size[2] / h)
-  return celspan.film { size = size, space = self.film.space, frame = function()
+  return celspan.film { size = size, space = self.script.space, frame = function()
     return celspan.rostrum { celspan.cel { object } }
   end }
 end
@@ -85,7 +85,7 @@ function Bake:cel_refusal(structure, i)
     if why then return why end
   end
   if self:is_lit(cel) then return "a picture in another light than white" end
-  if self.film.space ~= "srgb" and not self:is_alone(structure, i) and self:is_clear(cel) then
+  if self.script.space ~= "srgb" and not self:is_alone(structure, i) and self:is_clear(cel) then
     return "light that is mixed, where players mix codes"
   end
 end
@@ -162,7 +162,7 @@ end
 
 --- What can be seen in a picture, as outlines; nil: why it has none.
 function Bake:parcels_of(picture)
-  local plane, message = celspan.plane(program.still(self.film, picture.shown))
+  local plane, message = celspan.plane(program.still(self.script, picture.shown))
   if not plane then return nil, message end
   return core.parcels(plane)
 end
@@ -170,7 +170,7 @@ end
 local SIDE_MOST = 16384 -- pixels: more than players can hold
 
 function Bake:check_size()
-  local width, height = self.film:view_size()
+  local width, height = self.script:view_size()
   if math.max(width, height) > SIDE_MOST then
     program.fail("limit", "%s: pictures of %d x %d pixels; the limit is %d: give a smaller --scale",
       self.path, width, height, SIDE_MOST)
@@ -204,7 +204,7 @@ end
 
 function Bake:add_drawn(picture)
   self:check_size()
-  self.layers:add_picture(self:asset_of(program.still(self.film, picture.shown)), picture)
+  self.layers:add_picture(self:asset_of(program.still(self.script, picture.shown)), picture)
 end
 
 --- Adds the layers of all pictures, which lie behind all others.

@@ -11,7 +11,7 @@
 -- A text is measured in its 1st, 2nd, 4th, 8th ... frame, since it may appear slowly, and in every
 -- frame as long as it could not be read. Two texts are compared in the same way, in the frames in
 -- which both are clearly there, since one may pass the other, or follow it in a dissolve.
-local film = ...
+local script = ...
 
 local texts = {}
 texts.__index = texts
@@ -48,7 +48,7 @@ local function texts_of(parts)
   local found = {}
   for _, part in ipairs(parts) do
     local words, em, is_letter
-    if part.kind == "text" then words, em, is_letter = film:words(part.words) end
+    if part.kind == "text" then words, em, is_letter = script:words(part.words) end
     local last = found[#found]
     if words and part.box and part.fade > 0 then
       if is_letter and last and last.is_open and last.number == part.words then
@@ -93,7 +93,7 @@ end
 --- The view in which the letters of a text are large enough: the size of the whole frame, and the
 --- crop; nil: the text is not in the frame.
 local function view_of(text)
-  local w, h = film.size[1], film.size[2]
+  local w, h = script.size[1], script.size[2]
   local x0, y0 = math.max(0, text.box[1]), math.max(0, text.box[2])
   local x1 = math.min(w, text.box[1] + text.box[3])
   local y1 = math.min(h, text.box[2] + text.box[4])
@@ -143,7 +143,7 @@ local function measure(shown, text, look)
   local view = view_of(text)
   if not view then return end
   local _, alphas = look(text.alone, view)
-  local lights = look(film:exposures(), view)
+  local lights = look(script:exposures(), view)
   if not alphas or not lights then return end
   local contrast = contrast_of(alphas, lights)
   shown.contrast = contrast and math.max(shown.contrast or 0, contrast) or shown.contrast
@@ -234,16 +234,16 @@ end
 
 --- Adds the sides of the frame inside which the whole text lies: left, top, right, bottom.
 local function add_sides(shown, box)
-  local inside = { box[1] >= -0.5, box[2] >= -0.5, box[1] + box[3] <= film.size[1] + 0.5,
-                   box[2] + box[4] <= film.size[2] + 0.5 }
+  local inside = { box[1] >= -0.5, box[2] >= -0.5, box[1] + box[3] <= script.size[1] + 0.5,
+                   box[2] + box[4] <= script.size[2] + 0.5 }
   for i = 1, 4 do shown.inside[i] = shown.inside[i] or inside[i] end
 end
 
 --- The share of the frame that a box covers.
 function texts.share_of(box)
-  local w = math.min(film.size[1], box[1] + box[3]) - math.max(0, box[1])
-  local h = math.min(film.size[2], box[2] + box[4]) - math.max(0, box[2])
-  return math.max(0, w) * math.max(0, h) / (film.size[1] * film.size[2])
+  local w = math.min(script.size[1], box[1] + box[3]) - math.max(0, box[1])
+  local h = math.min(script.size[2], box[2] + box[4]) - math.max(0, box[2])
+  return math.max(0, w) * math.max(0, h) / (script.size[1] * script.size[2])
 end
 
 --- Begins a text in a frame.
@@ -329,7 +329,7 @@ function texts.judge(shown, seconds, add)
     and not shown.is_copied and not crossing(shown.above) then
     add("has a contrast of %.1f to its background, less than %d", shown.contrast, CONTRAST)
   end
-  if shown.pixels < SMALL * film.size[2] then
+  if shown.pixels < SMALL * script.size[2] then
     add("has letters of %.3g units, less than 1/%d of the frame's height", shown.pixels,
       math.floor(1 / SMALL + 0.5))
   end

@@ -9,7 +9,7 @@
 --   log     of --log, if it is given
 --   fault   a sentence about a value that the script does not allow: only of `check`, and with
 --           --keep-going; otherwise the whole table is refused for it
-local program, request, film = ...
+local program, request, script = ...
 local csv = require "celspan.csv"
 local fields = require "celspan.fields"
 local json = require "celspan.json"
@@ -91,7 +91,7 @@ end
 local function fault_of(row, header, is_parameter)
   for i, name in ipairs(header) do
     local fault = is_parameter[name]
-      and film:ask("celspan.parameters", "fault", name .. "=" .. row[i]) or ""
+      and script:ask("celspan.parameters", "fault", name .. "=" .. row[i]) or ""
     if fault ~= "" then return fault end
   end
 end
@@ -101,9 +101,8 @@ end
 --- The names of the script's parameters, as keys.
 local function parameters()
   local names = {}
-  for name in pairs(assert(json.decode(film:ask("celspan.parameters", "schema", ""))).properties) do
-    names[name] = true
-  end
+  local schema = json.decode(script:ask("celspan.parameters", "schema", ""))
+  for name in pairs(assert(schema).properties) do names[name] = true end
   return names
 end
 

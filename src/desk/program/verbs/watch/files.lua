@@ -34,7 +34,7 @@ end
 
 --- Watches a file for a film, { script = }. is_read: the film read the file; otherwise it was
 --- refused.
-function files:add(path, film, is_read)
+function files:add(path, side, is_read)
   local folder, name = split(path)
   local known = folder and self.owners[folder] and self.owners[folder][name]
   if not folder or not known and self.count == WATCHED_MOST then return end
@@ -46,25 +46,25 @@ function files:add(path, film, is_read)
     known, self.count = {}, self.count + 1
     self.owners[folder][name] = known
   end
-  known[film] = is_read
+  known[side] = is_read
 end
 
 --- Whether a film reads a file; nil: it has not asked for it. A trusted script may read modules
 --- without asking, so modules beside it count, too.
-function files:state(path, film)
+function files:state(path, side)
   local folder, name = split(path)
   local known = folder and self.owners[folder] and self.owners[folder][name]
-  if known and known[film] ~= nil then return known[film] end
+  if known and known[side] ~= nil then return known[side] end
   local is_module = folder and request.trust and name:match "%.lua$"
-    and folder == (film.script:match "^.*/" or "")
+    and folder == (side.script:match "^.*/" or "")
   return is_module and true or nil
 end
 
 --- Whether an event matters for a film. name "": the folder is gone; number -1: events were lost.
-function files:concerns(number, name, film)
+function files:concerns(number, name, side)
   local is_changed = number == -1
   for folder in pairs(self.folders[number] or {}) do
-    is_changed = is_changed or name == "" or self:state(folder .. name, film) ~= nil
+    is_changed = is_changed or name == "" or self:state(folder .. name, side) ~= nil
   end
   return is_changed
 end
@@ -83,26 +83,26 @@ function files:lose(number)
 end
 
 --- Returns the given films that have asked for a file which has changed since the last call.
-function files:take(films)
+function files:take(sides)
   local events, changed = self.watcher:take(), {}
   for i = 1, #events, 2 do
     local number, name = events[i], events[i + 1]
-    for _, film in ipairs(films) do
-      changed[film] = changed[film] or self:concerns(number, name, film) or nil
+    for _, side in ipairs(sides) do
+      changed[side] = changed[side] or self:concerns(number, name, side) or nil
     end
     if name == "" then self:lose(number) end
   end
   if self:find_missing() then
-    for _, film in ipairs(films) do changed[film] = true end
+    for _, side in ipairs(sides) do changed[side] = true end
   end
   return changed
 end
 
 --- The path of the first file that a film reads and for which fits(path) is true; nil: none.
-function files:find(film, fits)
+function files:find(side, fits)
   for folder, list in pairs(self.owners) do
-    for name, films in pairs(list) do
-      if films[film] and fits(folder .. name) then return folder .. name end
+    for name, sides in pairs(list) do
+      if sides[side] and fits(folder .. name) then return folder .. name end
     end
   end
   return nil
@@ -110,18 +110,18 @@ end
 
 --- The path by which a film knows a file that an editor names from the root; nil: the film does not
 --- read it.
-function files:path_of(name, film)
-  return self:find(film, function(path)
+function files:path_of(name, side)
+  return self:find(side, function(path)
     return name == path or name:sub(-#path - 1) == "/" .. path
   end)
 end
 
 --- The path of a file that a sentence about a film names in Lua's way: only the end of a long path,
 --- after three dots. nil: the film does not read it.
-function files:named(name, film)
-  if self:state(name, film) then return name end
+function files:named(name, side)
+  if self:state(name, side) then return name end
   local ending = name:match "^%.%.%.(.+)$"
-  return ending and self:find(film, function(path) return path:sub(-#ending) == ending end)
+  return ending and self:find(side, function(path) return path:sub(-#ending) == ending end)
 end
 
 function files:descriptor() return self.watcher:descriptor() end

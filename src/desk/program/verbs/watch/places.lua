@@ -20,8 +20,8 @@ end
 local function key_of(name, line) return ("%s:%d"):format(name, line) end
 
 --- Notes a place. Returns its path and line; nothing if the film does not read that file.
-function places:note(name, line, film)
-  local path = name and line and self.files:named(name, film)
+function places:note(name, line, side)
+  local path = name and line and self.files:named(name, side)
   if not path then return end
   for _, one in ipairs { name, path } do
     local key = key_of(one, line)
@@ -37,10 +37,10 @@ function places:find(name, line) return self.known[key_of(name, line)] end
 
 --- The places in a text such as "from shot.lua:40, hand.lua:7": notes them and returns { file, line
 --- } of each.
-function places:of_text(text, film)
+function places:of_text(text, side)
   local list = {}
   for name, digits in text:gmatch "([^%s:(),]+):(%d+)" do
-    local _, line = self:note(name, math.tointeger(digits), film)
+    local _, line = self:note(name, math.tointeger(digits), side)
     if line then list[#list + 1] = { file = name, line = line } end
   end
   return { list = list }
@@ -59,24 +59,24 @@ function places.excerpt(path, line)
 end
 
 --- The place in the film's script where the sound of a message is named; nothing: it is not.
-local function place_of_sound(message, film)
+local function place_of_sound(message, side)
   local sound = message:match "^film: sound %d+: the sound (.-) cannot "
-  local text, number = sound and texts.read(film.script, LINES_MOST), 0
+  local text, number = sound and texts.read(side.script, LINES_MOST), 0
   for line in (text and text .. "\n" or ""):gmatch "([^\n]*)\n" do
     number = number + 1
     for _, quote in ipairs { '"', "'" } do
-      if line:find(quote .. sound .. quote, 1, true) then return film.script, number end
+      if line:find(quote .. sound .. quote, 1, true) then return side.script, number end
     end
   end
 end
 
 --- An error of a film, in the form that /errors.json has.
-function places:describe(message, frame, film)
+function places:describe(message, frame, side)
   local name, named = program.place_of(message)
-  if not name then name, named = place_of_sound(message, film) end
-  local path, line = self:note(name, named, film)
+  if not name then name, named = place_of_sound(message, side) end
+  local path, line = self:note(name, named, side)
   frame = frame or math.tointeger(message:match "frame (%-?%d+): ")
-  local callers = self:of_text(message:match " %(called from ([^()]*)%)" or "", film)
+  local callers = self:of_text(message:match " %(called from ([^()]*)%)" or "", side)
   return { message = message, frame = frame, file = path, line = line, callers = callers,
            lines = path and places.excerpt(path, line) }
 end

@@ -37,8 +37,8 @@ end
 
 --- folder: of the files, with a / at its end; "" for the working folder. tell(): called when pages
 --- need news. number: of the renders that have begun.
-function renders.new(film, folder, tell)
-  return setmetatable({ film = film, folder = folder, tell = tell, said = { state = "idle" },
+function renders.new(side, folder, tell)
+  return setmetatable({ side = side, folder = folder, tell = tell, said = { state = "idle" },
                         number = 0, reported = 0 }, renders)
 end
 
@@ -104,7 +104,7 @@ end
 
 --- A whole description of what is wanted; nil and a sentence.
 function renders:read(given)
-  local facts, format = self.film.facts, given.format
+  local facts, format = self.side.facts, given.format
   if stills[format] == nil then return nil, "there is no such format" end
   local fault = fault_of_name(given.file, format)
   if fault then return nil, fault end
@@ -140,11 +140,11 @@ end
 --- The words of the run: with the rights of this one, and the values that the page has given.
 function renders:words(wanted)
   local range = ("%d-%d"):format(wanted.from, wanted.to)
-  local words = { "render", self.film.script, "-o", wanted.path, "--frames", range,
+  local words = { "render", self.side.script, "-o", wanted.path, "--frames", range,
                   "--progress", "json" }
   if wanted.size then table.move({ "--size", wanted.size }, 1, 2, #words + 1, words) end
   if wanted.draft then words[#words + 1] = "--draft" end
-  return self.film.pool:add_options(words)
+  return self.side.pool:add_options(words)
 end
 
 --- Notes which files the run will make. false: one is there already, whoever may read it.

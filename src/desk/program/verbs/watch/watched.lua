@@ -1,4 +1,4 @@
---- A film that is watched (celspan watch): what is known of it, and the renderers that know it.
+--- A side of celspan watch: what is known of a film that is watched, and its renderers.
 --
 --   saved, or other values --> build --> renderers --> facts, parameters | an error
 --                                            \--nobody asks for pictures--> its frames are checked
@@ -12,14 +12,14 @@ local CHECKED_MOST = 5000  -- frames that are checked
 local ANNOUNCED = 1        -- seconds between two reports of the number of checked frames
 local FAULTS_MOST = 200
 
-local film = {}
-film.__index = film
+local side = {}
+side.__index = side
 
 --- script: its path. files, places: of files.lua and places.lua. tell(): called when pages need
 --- news. build: the number of saves. heard: the time of the last request.
-function film.new(script, files, places, tell)
+function side.new(script, files, places, tell)
   local self = setmetatable({ script = script, files = files, places = places, tell = tell,
-                              build_number = 0, errors = {}, began = 0, heard = 0 }, film)
+                              build_number = 0, errors = {}, began = 0, heard = 0 }, side)
   self.pool = renderers.new(script, function(paths)
     for _, one in ipairs(paths) do files:add(one[1], self, one[2]) end
   end)
@@ -27,7 +27,7 @@ function film.new(script, files, places, tell)
   return self
 end
 
-function film:add_error(message, frame)
+function side:add_error(message, frame)
   for _, known in ipairs(self.errors) do
     if known.message == message then return end
   end
@@ -46,7 +46,7 @@ local function checks_of(facts)
 end
 
 --- Stores the facts that the script has given.
-function film:take(head)
+function side:take(head)
   self.facts, self.errors, self.is_building = head.film, {}, false
   self.facts.marks = { list = self.facts.marks }
   self.parameters = head.parameters
@@ -56,7 +56,7 @@ end
 
 --- Forgets the value of a parameter that the saved script has no more, or that cannot have it any
 --- more. Returns whether a message says that there is one.
-function film:drop_lost(message)
+function side:drop_lost(message)
   local name = message:match "the script has no parameter '([%w_]+)'"
     or message:match "set: ([%w_]+) is "
   local is_lost = name and self.pool.values[name] ~= nil
@@ -65,7 +65,7 @@ function film:drop_lost(message)
 end
 
 --- Begins again with the current script.
-function film:build()
+function side:build()
   self.pool:close("the film was saved again", 503)
   self.build_number, self.began = self.build_number + 1, program.clock()
   self.is_building = true
@@ -87,7 +87,7 @@ end
 --- Gives values to parameters, { name = "text" }, and forgets all earlier ones. A parameter keeps
 --- its earlier value if it cannot have the new one. Returns the values that are given now, and
 --- sentences about those that cannot be, both by name.
-function film:give_values(given)
+function side:give_values(given)
   local values, refused = {}, {}
   for _, one in ipairs(self.parameters or {}) do
     local name = one.name
@@ -100,7 +100,7 @@ function film:give_values(given)
 end
 
 --- Ends the film's processes. The film can be built again.
-function film:close(message)
+function side:close(message)
   self.build_number = self.build_number + 1
   self.is_building, self.is_shown, self.check_state = false, false, nil
   self.pool:close(message, 503)
@@ -125,7 +125,7 @@ local function next_ask(at, head)
   return head.at and again
 end
 
-function film:take_checked(at, head)
+function side:take_checked(at, head)
   at.is_asked = false
   for _, fault in ipairs(head.faults) do self:add_error(fault.message, fault.frame) end
   if self.check_state ~= at then return end
@@ -139,7 +139,7 @@ function film:take_checked(at, head)
 end
 
 --- Lets some frames be checked while no picture is requested.
-function film:check()
+function side:check()
   local at = self.check_state
   if not at or at.is_asked or program.clock() - self.heard < QUIET or not self.pool:is_idle() then
     return
@@ -178,7 +178,7 @@ end
 
 --- The parameters with their values: those of the page, otherwise `start`, those of the command
 --- line or the defaults. source: how the script declares a parameter with this value.
-function film:describe_parameters()
+function side:describe_parameters()
   local values, list = values_at_start(), {}
   for i, one in ipairs(self.parameters or {}) do
     local start = values[one.name]
@@ -193,7 +193,7 @@ function film:describe_parameters()
   return { list = list }
 end
 
-function film:describe()
+function side:describe()
   return { build = self.build_number, building = self.is_building or false,
            seconds = self.is_building and program.clock() - self.began or 0,
            checked = self.checked, checking = self.check_state ~= nil,
@@ -204,7 +204,7 @@ end
 
 --- Asks the renderers. Calls give(head, bytes) or refuse(status, sentence). wish: the name by which
 --- the request can be given up.
-function film:ask(ask, give, refuse, wish)
+function side:ask(ask, give, refuse, wish)
   self.heard = program.clock()
   self.pool:ask {
     ask = ask, wish = wish,
@@ -216,4 +216,4 @@ function film:ask(ask, give, refuse, wish)
   }
 end
 
-return film
+return side

@@ -1,4 +1,4 @@
-/* program.film(): the film of a script, for verbs in Lua.
+/* program.script(): the film of a script, for verbs in Lua.
  *
  *   script's state                        program's state
  *   frame function --> scene of the core --> { { rostrum, weight }, ... }
@@ -27,16 +27,17 @@
 #include "program/film/view.h"
 #include "program/options/verbs.h"
 #include "program/outputs/outputs.h"
+#include "program/services/shooting.h"
 #include "program/stage/stage.h"
 
-typedef struct film {
+typedef struct opened {
   cs_script script;
   cs_inspection pictures; /* the pictures that were examined */
   celspan_rostrum *held;  /* whose camera others are seen with; NULL: none. A reference */
-} film;
+} opened;
 
 static int close_film(lua_State *L) {
-  film *f = lua_touserdata(L, 1);
+  opened *f = lua_touserdata(L, 1);
   celspan_rostrum_unref(f->held);
   f->held = NULL;
   cs_script_close(&f->script);
@@ -45,12 +46,13 @@ static int close_film(lua_State *L) {
 }
 
 /* The film that is argument 1. */
-static film *self(lua_State *L) { return cs_service_opened(L); }
+static opened *self(lua_State *L) { return cs_service_opened(L); }
 
 /* ---------------------------------------------------------------- frames */
 
-/* Pushes the frame that was built last. */
+/* Pushes the frame that was built last. The module celspan knows its values. */
 static int push_frame(lua_State *L, const cs_film_frame *frame) {
+  luaL_requiref(L, "celspan", luaopen_celspan, 0);
   lua_createtable(L, (int)frame->count, 0);
   for (size_t i = 0; i < frame->count; i++) {
     lua_createtable(L, 2, 0);
@@ -66,14 +68,14 @@ static int push_frame(lua_State *L, const cs_film_frame *frame) {
   return 1;
 }
 
-/* film:build(number): builds a frame; ends the verb if this fails. */
+/* script:build(number): builds a frame; ends the verb if this fails. */
 static int build(lua_State *L) {
   cs_service_try(L, cs_script_try(&self(L)->script, luaL_checkinteger(L, 2)));
   return 0;
 }
 
 /* Pushes true; if a frame could not be built, false, the message and the exit code. */
-static int push_outcome(lua_State *L, const film *f, celspan_status status) {
+static int push_outcome(lua_State *L, const opened *f, celspan_status status) {
   lua_pushboolean(L, status == CELSPAN_OK);
   if (status == CELSPAN_OK)
     return 1;
@@ -82,25 +84,26 @@ static int push_outcome(lua_State *L, const film *f, celspan_status status) {
   return 3;
 }
 
-/* film:try(number) -> true | false, message, exit code */
+/* script:try(number) -> true | false, message, exit code */
 static int try_frame(lua_State *L) {
-  film *f = self(L);
+  opened *f = self(L);
   return push_outcome(L, f, cs_script_try(&f->script, luaL_checkinteger(L, 2)));
 }
 
-/* film:at(number) -> its exposures */
+/* script:at(number) -> its exposures */
 static int at(lua_State *L) {
-  film *f = self(L);
+  opened *f = self(L);
   cs_service_try(L, cs_script_try(&f->script, luaL_checkinteger(L, 2)));
   return push_frame(L, &f->script.frame);
 }
 
-/* film:exposures() -> those of the frame that was built last */
+/* script:exposures() -> those of the frame that was built last */
 static int exposures(lua_State *L) { return push_frame(L, &self(L)->script.frame); }
 
-/* film:chosen() -> the exposures of the frame of --frame, or of the first frame; and its number */
+/* script:chosen() -> the exposures of the frame of --frame, or of the first frame; and its number
+ * */
 static int chosen(lua_State *L) {
-  film *f = self(L);
+  opened *f = self(L);
   celspan_frame_desc desc;
   cs_service_require(L, cs_script_frame(&f->script, cs_service_session(L)->request, &desc));
   push_frame(L, &f->script.frame);
@@ -113,8 +116,8 @@ static int release_numbers(lua_State *L) {
   return 0;
 }
 
-/* film:numbers(output or nil) -> the numbers of --frames, or of all frames; each must have its own
- * name in the output */
+/* script:numbers(output or nil) -> the numbers of --frames, or of all frames; each must have its
+ * own name in the output */
 static int numbers(lua_State *L) {
   const cs_request *request = cs_service_session(L)->request;
   const char *output = luaL_optstring(L, 2, NULL);
@@ -129,8 +132,8 @@ static int numbers(lua_State *L) {
   return 1;
 }
 
-/* film:view_size() -> the size of a frame in pixels under the request; ends the verb if the request
- * is not possible for this film */
+/* script:view_size() -> the size of a frame in pixels under the request; ends the verb if the
+ * request is not possible for this film */
 static int view_size(lua_State *L) {
   const cs_film_info *info = &self(L)->script.film;
   celspan_frame_desc desc;
@@ -141,7 +144,7 @@ static int view_size(lua_State *L) {
   return 2;
 }
 
-/* film:refuse(words, is_whole): ends the verb if `render` would refuse these words for the film;
+/* script:refuse(words, is_whole): ends the verb if `render` would refuse these words for the film;
  * is_whole: for its size and its rate, too */
 static int refuse(lua_State *L) {
   const cs_session *session = cs_service_session(L);
@@ -158,7 +161,8 @@ static int refuse(lua_State *L) {
   return 0;
 }
 
-/* film:lay_onion(width, height): replaces the film by that of --onion, with skins of this size. */
+/* script:lay_onion(width, height): replaces the film by the one that --onion makes, with skins of
+ * this size. */
 static int lay_onion(lua_State *L) {
   const celspan_frame_desc frame = {.width = (int32_t)luaL_checkinteger(L, 2),
                                     .height = (int32_t)luaL_checkinteger(L, 3)};
@@ -167,10 +171,11 @@ static int lay_onion(lua_State *L) {
   return 0;
 }
 
-/* film:onion(number, before, after, width, height, labels): as film:try, with skins of this size of
- * that many frames before and after. labels: of the cels that they are made of, for onion.lua. */
+/* script:onion(number, before, after, width, height, labels): as script:try, with skins of this
+ * size of that many frames before and after. labels: of the cels that they are made of, for
+ * onion.lua. */
 static int try_onion(lua_State *L) {
-  film *f = self(L);
+  opened *f = self(L);
   const cs_onion onion = {
       .counts = {(int32_t)luaL_checkinteger(L, 3), (int32_t)luaL_checkinteger(L, 4)},
       .width = (int32_t)luaL_checkinteger(L, 5),
@@ -179,36 +184,42 @@ static int try_onion(lua_State *L) {
   return push_outcome(L, f, cs_change_try_onion(&f->script, &onion, luaL_checkinteger(L, 2)));
 }
 
-/* Pushes them onto the stack of the script. Nothing is pushed if it fails. */
-static celspan_status push_captions(cs_script *script) {
-  const cs_film_info *info = &script->film;
-  if (info->has_captions)
-    return cs_subtitles_push(script->L, CS_SCRIPT_FILM, "srt", 0,
-                             (double)info->count / info->frames_second);
+/* Pushes the captions of these seconds onto the stack of the script. Nothing is pushed if it
+ * fails. */
+static celspan_status push_captions(cs_script *script, const char *form, double first,
+                                    double seconds) {
+  if (script->film.has_captions)
+    return cs_subtitles_push(script->L, CS_SCRIPT_FILM, form, first, seconds);
   lua_pushliteral(script->L, "");
   return CELSPAN_OK;
 }
 
+static double seconds_of(const cs_film_info *info) {
+  return (double)info->count / info->frames_second;
+}
+
 static celspan_status read_captions(cs_script *script) {
-  celspan_status status = push_captions(script);
+  celspan_status status = push_captions(script, "srt", 0, seconds_of(&script->film));
   if (status == CELSPAN_OK)
     lua_pop(script->L, 1);
   return status;
 }
 
-/* film:captions() -> the text of a .srt file; "": there are none */
+/* script:captions(form, first, seconds) -> the captions of these seconds, without arguments of the
+ * whole film, as the text of a file of the form "srt" or "webvtt"; "": there are none */
 static int captions(lua_State *L) {
   cs_script *script = &self(L)->script;
-  cs_service_try(L, push_captions(script));
+  cs_service_try(L, push_captions(script, luaL_optstring(L, 2, "srt"), luaL_optnumber(L, 3, 0),
+                                  luaL_optnumber(L, 4, seconds_of(&script->film))));
   lua_pushstring(L, lua_tostring(script->L, -1));
   lua_pop(script->L, 1);
   return 1;
 }
 
-/* film:check_tracks(is_silent) -> 0, or the exit code for a fault of the sound or else of the
+/* script:check_tracks(is_silent) -> 0, or the exit code for a fault of the sound or else of the
  * captions, both of which are read; it is reported unless is_silent */
 static int check_tracks(lua_State *L) {
-  film *f = self(L);
+  opened *f = self(L);
   const celspan_context *context = f->script.context;
   bool is_silent = lua_toboolean(L, 2);
   celspan_status sound = cs_soundtrack_check(&f->script, f->pictures.is_deep);
@@ -222,7 +233,7 @@ static int check_tracks(lua_State *L) {
 
 /* ---------------------------------------------------------------- scenes */
 
-/* film:scene() -> 16 bytes, equal for equal scenes; nil if a procedure draws */
+/* script:scene() -> 16 bytes, equal for equal scenes; nil if a procedure draws */
 static int scene(lua_State *L) {
   const cs_film_frame *frame = &self(L)->script.frame;
   if (cs_scene_has_procedure(frame->exposures, frame->count))
@@ -232,7 +243,32 @@ static int scene(lua_State *L) {
   return 1;
 }
 
-/* film:counts() -> cels, primitives, pictures */
+/* script:pictures_key() -> 16 bytes, equal while the files of the pictures of the scene are as they
+ * are now */
+static int pictures_key(lua_State *L) {
+  const cs_film_frame *frame = &self(L)->script.frame;
+  cs_hash hash = cs_walk_hash_files(frame->exposures, frame->count);
+  lua_pushlstring(L, (const char *)&hash, sizeof hash);
+  return 1;
+}
+
+/* script:cels() -> the names of the cels that the camera sees and that have one */
+static int cels(lua_State *L) {
+  const cs_film_frame *frame = &self(L)->script.frame;
+  lua_Integer count = 0;
+  lua_newtable(L);
+  for (size_t e = 0; e < frame->count; e++) {
+    const celspan_rostrum *rostrum = frame->exposures[e].rostrum;
+    for (size_t i = 0; i < rostrum->cel_count; i++)
+      if (rostrum->cels[i]->mark.name) {
+        lua_pushstring(L, cs_mark_name(rostrum->cels[i]->mark));
+        lua_rawseti(L, -2, ++count);
+      }
+  }
+  return 1;
+}
+
+/* script:counts() -> cels, primitives, pictures */
 static int counts(lua_State *L) {
   const cs_film_frame *frame = &self(L)->script.frame;
   celspan_rostrum_counts all = {0, 0, 0};
@@ -321,15 +357,15 @@ static int ask_by(lua_State *L, lua_CFunction asking) {
   return 1;
 }
 
-/* film:ask(module, what, text) -> a text: calls a function of one of celspan's modules in the state
- * of the script. */
+/* script:ask(module, what, text) -> a text: calls a function of one of celspan's modules in the
+ * state of the script. */
 static int ask(lua_State *L) { return ask_by(L, ask_module); }
 
-/* film:kept(module, what, text): the same for what a private module keeps of the script; "": the
+/* script:kept(module, what, text): the same for what a private module keeps of the script; "": the
  * script does not use the module, which is not loaded for this. */
 static int kept(lua_State *L) { return ask_by(L, ask_loaded_module); }
 
-/* film:names(add): calls add(kind, name, source or nil, line) for each value that has a name. */
+/* script:names(add): calls add(kind, name, source or nil, line) for each value that has a name. */
 static int names(lua_State *L) {
   const cs_film_frame *frame = &self(L)->script.frame;
   luaL_checkstack(L, 8, "too many names");
@@ -338,8 +374,8 @@ static int names(lua_State *L) {
   return 0;
 }
 
-/* film:words(number) -> the words of a text with this number (core.parts), its em, and whether the
- * value is a letter of them; nil */
+/* script:words(number) -> the words of a text with this number (core.parts), its em, and whether
+ * the value is a letter of them; nil */
 static int words(lua_State *L) {
   lua_State *script = self(L)->script.L;
   cs_named_words found;
@@ -414,7 +450,7 @@ static void add_warnings(lua_State *L, lua_State *script) {
   lua_settop(script, before);
 }
 
-/* film:drop_warnings(): forgets the warnings of frames that were built before. */
+/* script:drop_warnings(): forgets the warnings of frames that were built before. */
 static int drop_warnings(lua_State *L) {
   lua_State *script = self(L)->script.L;
   const int before = lua_gettop(script);
@@ -423,10 +459,10 @@ static int drop_warnings(lua_State *L) {
   return 0;
 }
 
-/* film:faults(add): examines the pictures, and calls add(where, message, exit code) for each that
+/* script:faults(add): examines the pictures, and calls add(where, message, exit code) for each that
  * cannot be read, and for each warning of the script. */
 static int faults(lua_State *L) {
-  film *f = self(L);
+  opened *f = self(L);
   const cs_film_frame *frame = &f->script.frame;
   luaL_checkstack(L, 8, "too many faults");
   for (size_t i = 0; i < frame->count; i++) {
@@ -438,6 +474,16 @@ static int faults(lua_State *L) {
   add_warnings(L, f->script.L);
   return 0;
 }
+
+/* ---------------------------------------------------------------- renders */
+
+static int target(lua_State *L) { return cs_shooting_target(L, &self(L)->script); }
+static int shoot(lua_State *L) { return cs_shooting_run(L, &self(L)->script); }
+static int write_poster(lua_State *L) { return cs_shooting_poster(L, &self(L)->script); }
+static int key(lua_State *L) { return cs_shooting_key(L, &self(L)->script); }
+static int sounds_key(lua_State *L) { return cs_shooting_sounds_key(L, &self(L)->script); }
+static int stems(lua_State *L) { return cs_shooting_stems(L, &self(L)->script); }
+static int write_sound(lua_State *L) { return cs_shooting_sound(L, &self(L)->script); }
 
 /* ---------------------------------------------------------------- watched films */
 
@@ -453,23 +499,23 @@ static int use_camera(lua_State *L) {
 }
 static int costs(lua_State *L) { return cs_stage_costs(L, &self(L)->script); }
 
-/* film:hold_camera(): keeps the camera of the frame that was built last, for use_camera. */
+/* script:hold_camera(): keeps the camera of the frame that was built last, for use_camera. */
 static int hold_camera(lua_State *L) {
-  film *f = self(L);
+  opened *f = self(L);
   const cs_film_frame *frame = &f->script.frame;
   celspan_rostrum_unref(f->held);
   f->held = frame->count ? celspan_rostrum_ref(frame->exposures[0].rostrum) : NULL;
   return 0;
 }
 
-/* film:keep_callers(is_kept): see lua/bind/named.h */
+/* script:keep_callers(is_kept): see lua/bind/named.h */
 static int keep_callers(lua_State *L) {
   cs_named_keep_callers(self(L)->script.L, lua_toboolean(L, 2));
   return 0;
 }
 
-/* film:silence(is_silent): whether the text that a script in the sandbox prints is hidden from now
- * on */
+/* script:silence(is_silent): whether the text that a script in the sandbox prints is hidden from
+ * now on */
 static int silence(lua_State *L) {
   cs_sandbox *sandbox = self(L)->script.sandbox;
   if (sandbox)
@@ -514,63 +560,52 @@ static int describe(lua_State *L) {
   return 1;
 }
 
-static const luaL_Reg methods[] = {CS_SERVICE(build),
-                                   {"try", try_frame},
-                                   {"onion", try_onion},
-                                   CS_SERVICE(at),
-                                   CS_SERVICE(chosen),
-                                   CS_SERVICE(exposures),
-                                   CS_SERVICE(words),
-                                   CS_SERVICE(numbers),
-                                   CS_SERVICE(view_size),
-                                   CS_SERVICE(lay_onion),
-                                   CS_SERVICE(check_tracks),
-                                   CS_SERVICE(scene),
-                                   CS_SERVICE(counts),
-                                   CS_SERVICE(names),
-                                   CS_SERVICE(ask),
-                                   CS_SERVICE(kept),
-                                   CS_SERVICE(faults),
-                                   CS_SERVICE(drop_warnings),
-                                   CS_SERVICE(files),
-                                   CS_SERVICE(draw),
-                                   CS_SERVICE(hits),
-                                   CS_SERVICE(alter),
-                                   CS_SERVICE(keep_line),
-                                   CS_SERVICE(keep_callers),
-                                   CS_SERVICE(silence),
-                                   CS_SERVICE(costs),
-                                   CS_SERVICE(camera),
-                                   CS_SERVICE(hold_camera),
-                                   CS_SERVICE(use_camera),
-                                   CS_SERVICE(sound),
-                                   CS_SERVICE(wave),
-                                   CS_SERVICE(tree),
-                                   CS_SERVICE(refuse),
-                                   CS_SERVICE(captions),
-                                   {NULL, NULL}};
+static const luaL_Reg methods[] = {CS_SERVICE(build),        {"try", try_frame},
+                                   {"onion", try_onion},     CS_SERVICE(at),
+                                   CS_SERVICE(chosen),       CS_SERVICE(exposures),
+                                   CS_SERVICE(words),        CS_SERVICE(numbers),
+                                   CS_SERVICE(view_size),    CS_SERVICE(lay_onion),
+                                   CS_SERVICE(check_tracks), CS_SERVICE(scene),
+                                   CS_SERVICE(counts),       CS_SERVICE(names),
+                                   CS_SERVICE(ask),          CS_SERVICE(kept),
+                                   CS_SERVICE(faults),       CS_SERVICE(drop_warnings),
+                                   CS_SERVICE(files),        CS_SERVICE(draw),
+                                   CS_SERVICE(hits),         CS_SERVICE(alter),
+                                   CS_SERVICE(keep_line),    CS_SERVICE(keep_callers),
+                                   CS_SERVICE(silence),      CS_SERVICE(costs),
+                                   CS_SERVICE(camera),       CS_SERVICE(hold_camera),
+                                   CS_SERVICE(use_camera),   CS_SERVICE(sound),
+                                   CS_SERVICE(wave),         CS_SERVICE(tree),
+                                   CS_SERVICE(target),       CS_SERVICE(shoot),
+                                   CS_SERVICE(write_poster), CS_SERVICE(key),
+                                   CS_SERVICE(sounds_key),   CS_SERVICE(stems),
+                                   CS_SERVICE(write_sound),  CS_SERVICE(pictures_key),
+                                   CS_SERVICE(cels),         CS_SERVICE(refuse),
+                                   CS_SERVICE(captions),     {NULL, NULL}};
 
-/* Sets the methods of the film on top of the stack. */
+static int find_method(lua_State *L) {
+  static const luaL_Reg *const lists[] = {methods, NULL};
+  return cs_service_find(L, lists);
+}
+
+/* Sets the methods of the film on top of the stack; each is made when it is called first. */
 static void set_methods(lua_State *L) {
+  static const luaL_Reg finding[] = {
+      {"__index", find_method}, {"__tostring", describe}, {NULL, NULL}};
   lua_createtable(L, 0, 2);
-  lua_pushcfunction(L, describe);
-  lua_setfield(L, -2, "__tostring");
-  lua_newtable(L);
-  cs_service_add(L, methods);
-  lua_setfield(L, -2, "__index");
+  cs_service_add(L, finding);
   lua_setmetatable(L, -2);
 }
 
-/* film(path or nil, is_silent) -> the film of that script, or of the request's script; is_silent:
+/* script(path or nil, is_silent) -> the film of that script, or of the request's script; is_silent:
  * it was run before, and must print nothing now */
-static int open_film(lua_State *L) {
+static int open_script(lua_State *L) {
   const cs_session *session = cs_service_session(L);
   const cs_request *request = session->request;
   const char *path = luaL_optstring(L, 1, request->operands[0]);
   const bool is_silent = lua_toboolean(L, 2);
-  luaL_requiref(L, "celspan", luaopen_celspan, 0);
   lua_createtable(L, 0, 9);
-  film *f = cs_userdata_push_holder(L, "celspan.program.film", sizeof *f, close_film);
+  opened *f = cs_userdata_push_holder(L, "celspan.program.script", sizeof *f, close_film);
   f->pictures.context = session->context;
   f->pictures.progress = cs_interrupt_progress;
   f->pictures.is_deep = cs_request_has(request, "--deep");
@@ -590,7 +625,5 @@ static int give_settings(lua_State *L) {
   return 0;
 }
 
-void cs_service_add_film(lua_State *L) {
-  static const luaL_Reg services[] = {{"film", open_film}, CS_SERVICE(give_settings), {NULL, NULL}};
-  cs_service_add(L, services);
-}
+const luaL_Reg cs_services_script[] = {
+    {"script", open_script}, CS_SERVICE(give_settings), {NULL, NULL}};
