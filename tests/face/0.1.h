@@ -491,8 +491,8 @@ void celspan_glyphs_destroy(celspan_glyphs *glyphs);
 typedef struct celspan_svg celspan_svg;
 typedef struct celspan_svg_font { const char *family; const char *file; } celspan_svg_font;
 typedef struct celspan_svg_desc { size_t struct_size; const char *file; const void *bytes; size_t
-  size; const char *name; const celspan_svg_font *fonts; size_t font_count; celspan_space space;
-  double seconds; } celspan_svg_desc;
+  size; const char *name; const celspan_svg_font *fonts; size_t font_count; celspan_space space; }
+  celspan_svg_desc;
 void celspan_svg_desc_default(celspan_svg_desc *out, size_t struct_size);
 celspan_status celspan_svg_read(celspan_context *context, const celspan_svg_desc *desc, celspan_svg
   **out);
@@ -500,7 +500,6 @@ celspan_svg *celspan_svg_ref(celspan_svg *svg);
 void celspan_svg_unref(celspan_svg *svg);
 celspan_object *celspan_svg_object(const celspan_svg *svg);
 celspan_point celspan_svg_size(const celspan_svg *svg);
-double celspan_svg_seconds(const celspan_svg *svg);
 size_t celspan_svg_part_count(const celspan_svg *svg);
 celspan_object *celspan_svg_part(const celspan_svg *svg, size_t index, const char **name);
 typedef struct celspan_svg_element { const char *name; const char *tag; const char *id, *label,

@@ -31,6 +31,17 @@ local svg = {}
 ---@field seconds? number How long it moves: up to the end of the last animation that ends, or the longest period where all repeat for ever
 local Art = fields.class("celspan.svg", "a drawing", { seconds = true, __has_changes = true })
 
+--- Moves a drawing that is being read to a time (mover.h); nil: returns how long it moves.
+local function move(mover, seconds)
+  -- they are large, and few drawings move
+  local smil, styles = require "celspan.svg_smil", require "celspan.svg_styles"
+  local finish, period = smil.run(mover, seconds)
+  local later, longer = styles.run(mover, seconds)
+  if seconds then return 0 end
+  finish = math.max(finish, later)
+  return finish > 0 and finish or math.max(period, longer)
+end
+
 --- Drawings by the key of the core's cached drawing, as long as references to them exist.
 local known = setmetatable({}, { __mode = "v" })
 
@@ -60,7 +71,7 @@ function Art:at(seconds)
   if self.__has_changes then
     core.refuse "svg: a drawing with changes has no times; take `at` of the drawing that was read"
   end
-  local drawing, message = self.__drawing:at(seconds)
+  local drawing, message = self.__drawing:at(seconds, move)
   return drawing and drawing:object() or core.refuse("svg: " .. message)
 end
 
@@ -200,7 +211,8 @@ function svg.read(path, options)
   fields.check("svg: read", options, { fonts = "table", space = "any" })
   fields.space("svg", options.space)
   local found_at, tried = core.find(path)
-  local drawing, message = core.read_svg(found_at, list_fonts(options), options.space or "srgb")
+  local drawing, message =
+    core.read_svg(found_at, list_fonts(options), options.space or "srgb", move)
   if drawing then return wrap(drawing) end
   return nil, tried and ("%s; also looked for at %s"):format(message, tried) or message
 end

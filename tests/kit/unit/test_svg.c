@@ -3,6 +3,7 @@
 #include "celspan/celspan.h"
 #include "celspan/svg.h"
 #include "readers/svg/document/art.h"
+#include "readers/svg/motion/motion.h"
 #include "readers/svg/read.h"
 #include "readers/svg/words/colours.h"
 #include "tests/support/check.h"
@@ -132,6 +133,23 @@ static void a_colour_may_lack_its_end(void) {
 
 /* Everything with memory of its own: clip paths, masks, markers, gradients, texts, images. */
 /* Styles in every form, and what is noted of them. */
+/* A clock that knows one animation: from 0 to 10 in a second. */
+static celspan_status move_first(void *user, cs_svg_mover *mover, double *seconds) {
+  const cs_svg_mixture mixture = {
+      .from = {.text = "0"}, .to = {.text = "10"}, .share = mover->reading->seconds};
+  (void)user;
+  *seconds = 1;
+  if (mixture.share < 0)
+    return CELSPAN_OK;
+  CHECK(mover->count == 1);
+  return cs_svg_mover_mix(mover, &mover->animations[0], &mixture);
+}
+
+static double left_of(const celspan_svg *svg) {
+  celspan_box box;
+  return celspan_object_bounds(celspan_svg_object(svg), &box) ? box.x : -1;
+}
+
 /* Hosts that cannot ask for other times do not pay for a copy of the file. */
 static void a_file_is_kept_where_it_is_asked_for(celspan_context *context) {
   static const char text[] =
@@ -143,14 +161,16 @@ static void a_file_is_kept_where_it_is_asked_for(celspan_context *context) {
   int file = mkstemp(path);
   CHECK(file >= 0 && write(file, text, sizeof text - 1) == (ssize_t)sizeof text - 1);
   desc.file = path;
-  desc.seconds = -1;
-  const cs_svg_options options = {.seconds = -1, .keeps_file = true};
+  const cs_svg_clock clock = {move_first, NULL};
+  const cs_svg_options options = {.clock = &clock};
   if (CHECK(celspan_svg_read(context, &desc, &without) == CELSPAN_OK &&
             cs_svg_read_file(context, path, &options, &with) == CELSPAN_OK)) {
     CHECK(!without->file && with->file);
-    CHECK(cs_svg_at(context, without, 0.5, &later) == CELSPAN_OK && later == without);
+    CHECK(without->seconds == 0 && with->seconds == 1);
+    CHECK(cs_svg_at(context, without, &clock, 0.5, &later) == CELSPAN_OK && later == without);
     celspan_svg_unref(later);
-    CHECK(cs_svg_at(context, with, 0.5, &later) == CELSPAN_OK && later != with);
+    CHECK(cs_svg_at(context, with, &clock, 0.5, &later) == CELSPAN_OK && later != with);
+    CHECK(left_of(with) == 0 && left_of(later) == 5);
     celspan_svg_unref(later);
   }
   celspan_svg_unref(without);

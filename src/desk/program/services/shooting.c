@@ -198,7 +198,7 @@ static celspan_status run_shoot(run *r) {
                     .keeps_nothing = r->into.keeps_nothing,
                     .user = r,
                     .write = r->row->write ? write_file : NULL,
-                    .hash = r->row->is_apart ? cs_apart_hash : NULL,
+                    .hash = r->row->layers ? cs_apart_hash : NULL,
                     .keep = r->asks ? keep : NULL,
                     .build = build,
                     .finished = finished,

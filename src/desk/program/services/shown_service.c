@@ -21,7 +21,7 @@
 #include "program/outputs/outputs.h"
 #include "program/outputs/target.h"
 #include "writers/tiles/page.h"
-#include "writers/tiles/render.h"
+#include "writers/tiles/tile_render.h"
 
 #define PIXELS_MOST (1 << 26) /* of a picture in memory */
 

@@ -12,7 +12,7 @@ extern "C" {
 /* A drawing that was read from an SVG file: one object, and its parts by name. Immutable and
  * counted like a scene value. _skipped lists the parts that are not drawn (see the reference,
  * "svg"), with their lines. Blending is in linear light, as everywhere; colours and gradients are
- * those a browser shows.
+ * those a browser shows. A drawing is read without its animations, which the Lua face runs.
  *
  * Limits: a file of 256 MiB, 1,000,000 elements, nested 128 deep, 1,000,000 drawn when those of
  * `use` count each time, 65,536 rules of style; entities of plain text and elements, of 1,024 bytes
@@ -38,7 +38,6 @@ typedef struct celspan_svg_desc {
   size_t font_count;   /* at most 64 */
   celspan_space space; /* of the drawing, and of each of its parts, which are groups; LINEAR: the
                           colours of translucent shapes and of gradients are mixed as light */
-  double seconds;      /* the time of its animations; below 0, the default: without them */
 } celspan_svg_desc;
 
 CELSPAN_DESCRIPTION(celspan_svg_desc)
@@ -57,9 +56,6 @@ CELSPAN_API void celspan_svg_unref(celspan_svg *svg);
  * too. Borrowed from the drawing, like all results of the next four functions. Shared read. */
 CELSPAN_API celspan_object *celspan_svg_object(const celspan_svg *svg);
 CELSPAN_API celspan_point celspan_svg_size(const celspan_svg *svg);
-/* How long it moves: up to the end of the last animation that ends, or the longest period where all
- * repeat for ever; 0: it does not move. */
-CELSPAN_API double celspan_svg_seconds(const celspan_svg *svg);
 /* Parts are the elements that have an id or, where it is the only one, a label of Inkscape's: in
  * the drawing's units, with the transforms of the elements around them, but without the clips and
  * opacity of these. An element that only `use` shows is a part at its place in the file. */

@@ -1,10 +1,11 @@
 /* Drawings read from SVG: the functions behind lua/celspan/read/svg.lua.
  *
- *   core.read_svg(path, fonts, space) -> drawing | nil, message
+ *   core.read_svg(path, fonts, space, move) -> drawing | nil, message
  *   core.parse_svg(text, name) -> drawing | nil, message
  *   fonts: nil, or a list of { family, file, where it was looked for in vain }
  *   drawing:object(), :seconds(), :size(), :parts(), :skipped(), :key(), :with(functions by name),
- *   :at(seconds) -> drawing | nil, message
+ *   :at(seconds, move) -> drawing | nil, message
+ *   move: moves the drawing to a time (mover.h)
  *
  * INVARIANT: functions of the script run protected, so that memory of the core is released when
  * they raise errors.
@@ -24,6 +25,7 @@
 #include "lua/bind/named.h"
 #include "lua/bind/put.h"
 #include "lua/bind/userdata.h"
+#include "lua/module/mover.h"
 #include "lua/nouns/shape.h"
 #include "readers/svg/document/art.h"
 #include "readers/svg/read.h"
@@ -52,8 +54,13 @@ static drawing *push_drawing(lua_State *L) {
   return made;
 }
 
-/* The drawing as the result of a call; or nil, and the message of the failure. */
-static int answer(lua_State *L, const drawing *made, celspan_status status) {
+/* The drawing as the result of a call; or nil, and the message of the failure. Raises the error of
+ * the function that moves the drawing. */
+static int answer(lua_State *L, const drawing *made, const cs_mover *mover, celspan_status status) {
+  if (status == CELSPAN_CALLBACK && mover->failure > 0) {
+    lua_pushvalue(L, mover->failure);
+    return lua_error(L);
+  }
   if (status != CELSPAN_OK)
     return cs_host_fail_input(L, status);
   for (const cs_svg_named *one = made->svg->named; one; one = one->next)
@@ -92,7 +99,7 @@ static int size(lua_State *L) {
 
 /* nil: it does not move. */
 static int seconds(lua_State *L) {
-  double whole = celspan_svg_seconds(self(L));
+  double whole = self(L)->seconds;
   if (whole > 0)
     lua_pushnumber(L, whole);
   else
@@ -100,16 +107,18 @@ static int seconds(lua_State *L) {
   return 1;
 }
 
-/* drawing, seconds -> drawing | nil, message */
+/* drawing, seconds, move -> drawing | nil, message */
 static int at(lua_State *L) {
   celspan_svg *svg = self(L);
   double time = luaL_checknumber(L, 2);
+  lua_settop(L, 3);
+  const cs_svg_clock clock = {cs_mover_run, cs_mover_push(L, 3)};
   celspan_context *context = cs_host_context(L);
   drawing *made = push_drawing(L);
   cs_named_begin(L, context);
-  celspan_status status = cs_svg_at(context, svg, time, &made->svg);
+  celspan_status status = cs_svg_at(context, svg, &clock, time, &made->svg);
   cs_named_end(context);
-  return answer(L, made, status);
+  return answer(L, made, clock.user, status);
 }
 
 static int parts(lua_State *L) {
@@ -294,9 +303,9 @@ static const celspan_svg_font *read_fonts(lua_State *L, size_t *count) {
 
 static int read(lua_State *L) {
   const char *path = luaL_checkstring(L, 1);
-  cs_svg_options options = {.keeps_file = true};
-  lua_settop(L, 3);
-  options.seconds = -1;
+  lua_settop(L, 4);
+  const cs_svg_clock clock = {cs_mover_run, cs_mover_push(L, 4)};
+  cs_svg_options options = {.clock = &clock};
   if (!lua_isnil(L, 3))
     options.space =
         (celspan_space)(CELSPAN_SPACE_LINEAR + luaL_checkoption(L, 3, NULL, cs_space_words));
@@ -306,10 +315,10 @@ static int read(lua_State *L) {
   cs_named_begin(L, context);
   celspan_status status = cs_svg_read_file(context, path, &options, &made->svg);
   cs_named_end(context);
-  return answer(L, made, status);
+  return answer(L, made, clock.user, status);
 }
 
-/* A drawing that is a text, in "srgb" and without fonts. */
+/* A drawing that is a text, in "srgb", without fonts and as it is written. */
 static int parse(lua_State *L) {
   celspan_svg_desc desc = CELSPAN_SVG_DESC;
   desc.bytes = luaL_checklstring(L, 1, &desc.size);
@@ -329,6 +338,7 @@ void cs_drawing_open(lua_State *L) {
       {"skipped", skipped}, {"with", with},     {"elements", elements}, {"seconds", seconds},
       {"at", at},           {NULL, NULL}};
   /* Even if it exists already: without memory it may be incomplete. */
+  cs_mover_open(L);
   luaL_newmetatable(L, METATABLE);
   lua_pushcfunction(L, release);
   lua_setfield(L, -2, "__gc");

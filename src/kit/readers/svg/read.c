@@ -17,7 +17,7 @@
 #include "readers/svg/motion/motion.h"
 #include "readers/svg/read.h"
 
-CS_DESCRIBE(celspan_svg_desc, struct_size, .space = CELSPAN_SPACE_SRGB, .seconds = -1)
+CS_DESCRIBE(celspan_svg_desc, struct_size, .space = CELSPAN_SPACE_SRGB)
 
 #define FILE_BYTES ((size_t)256 << 20)
 #define KEPT 64  /* drawings */
@@ -202,7 +202,7 @@ static celspan_status keep_file(const cs_svg_reading *reading, const char *bytes
 
 static celspan_status finish_reading(const cs_svg_reading *reading, const char *bytes, size_t size,
                                      celspan_svg *art) {
-  bool is_kept = reading->keeps_file && !reading->source->outer && may_move(reading);
+  bool is_kept = reading->clock && !reading->source->outer && may_move(reading);
   return is_kept ? keep_file(reading, bytes, size, art) : CELSPAN_OK;
 }
 
@@ -252,14 +252,14 @@ static celspan_status read_inner(cs_svg_reading *outer, const cs_svg_source *sou
 }
 
 static cs_svg_reading begin_reading(celspan_context *context, const cs_svg_source *source,
-                                    const cs_svg_options *options) {
+                                    const cs_svg_options *options, double seconds) {
   return (cs_svg_reading){.context = context,
                           .source = source,
                           .read_inner = read_inner,
                           .box_of = cs_svg_box_of,
                           .space = options->space,
-                          .seconds = options->seconds,
-                          .keeps_file = options->keeps_file,
+                          .clock = options->clock,
+                          .seconds = seconds,
                           .tests = CS_SVG_SELECTOR_TESTS};
 }
 
@@ -314,8 +314,7 @@ static cs_hash key_of(const char *file, const struct stat *about, const cs_svg_o
   cs_hash_text(&hash, file);
   hash_about(&hash, about);
   cs_hash_word(&hash, options->space);
-  cs_hash_number(&hash, options->seconds);
-  cs_hash_word(&hash, options->keeps_file);
+  cs_hash_word(&hash, options->clock != NULL);
   for (size_t i = 0; i < options->font_count; i++)
     hash_font(&hash, &options->fonts[i]);
   return cs_hash_end(hash);
@@ -344,7 +343,7 @@ static celspan_status read_or_find(celspan_context *context, const char *file, i
                                 .font_count = options->font_count,
                                 .device = (uint64_t)about.st_dev,
                                 .number = (uint64_t)about.st_ino};
-  cs_svg_reading reading = begin_reading(context, &source, options);
+  cs_svg_reading reading = begin_reading(context, &source, options, -1);
   CS_TRY(read_open(&reading, descriptor, (size_t)about.st_size, out));
   if ((*out)->file)
     (*out)->file->key = key;
@@ -363,8 +362,8 @@ static cs_hash key_at(const cs_svg_file *file, double seconds) {
   return cs_hash_end(hash);
 }
 
-celspan_status cs_svg_at(celspan_context *context, celspan_svg *art, double seconds,
-                         celspan_svg **out) {
+celspan_status cs_svg_at(celspan_context *context, celspan_svg *art,
+                         const struct cs_svg_clock *clock, double seconds, celspan_svg **out) {
   const cs_svg_file *file = art->file;
   cs_service *service;
   if (!file) {
@@ -383,8 +382,8 @@ celspan_status cs_svg_at(celspan_context *context, celspan_svg *art, double seco
                                 .font_count = file->font_count,
                                 .device = file->device,
                                 .number = file->number};
-  const cs_svg_options options = {.space = art->space, .seconds = seconds};
-  cs_svg_reading reading = begin_reading(context, &source, &options);
+  const cs_svg_options options = {.space = art->space, .clock = clock};
+  cs_svg_reading reading = begin_reading(context, &source, &options, seconds);
   CS_TRY(read_bytes(&reading, file->bytes, file->size, out));
   if (!reading.has_other_files)
     keep(store, key, *out);
@@ -422,20 +421,15 @@ celspan_status celspan_svg_read(celspan_context *context, const celspan_svg_desc
   if (!desc->file == !desc->bytes)
     return cs_fail(context, CELSPAN_BAD_ARGUMENT, "svg: give a file or bytes, one of them");
   CS_TRY(cs_check_choice(context, "svg", "space", (unsigned)desc->space, CELSPAN_SPACE_SRGB + 1));
-  if (!cs_number_is_sane(desc->seconds))
-    return cs_fail(context, CELSPAN_BAD_ARGUMENT,
-                   "svg: seconds is %g; it must be a finite number within 1e12", desc->seconds);
-  const cs_svg_options options = {.fonts = desc->fonts,
-                                  .font_count = desc->font_count,
-                                  .space = desc->space,
-                                  .seconds = desc->seconds};
+  const cs_svg_options options = {
+      .fonts = desc->fonts, .font_count = desc->font_count, .space = desc->space};
   if (desc->file)
     return cs_svg_read_file(context, desc->file, &options, out);
   CS_TRY(check_fonts(context, &options));
   const cs_svg_source source = {.name = desc->name ? desc->name : "the drawing",
                                 .fonts = desc->fonts,
                                 .font_count = desc->font_count};
-  cs_svg_reading reading = begin_reading(context, &source, &options);
+  cs_svg_reading reading = begin_reading(context, &source, &options, -1);
   celspan_svg *art;
   CS_TRY(read_bytes(&reading, desc->bytes, desc->size, &art));
   *out = art;

@@ -380,8 +380,6 @@ celspan_point celspan_svg_size(const celspan_svg *svg) {
   return (celspan_point){svg->width, svg->height};
 }
 
-double celspan_svg_seconds(const celspan_svg *svg) { return svg->seconds; }
-
 size_t celspan_svg_part_count(const celspan_svg *svg) { return svg->part_count; }
 
 celspan_object *celspan_svg_part(const celspan_svg *svg, size_t index, const char **part_name) {

@@ -49,6 +49,7 @@ typedef struct cs_svg_kept_images {
 } cs_svg_kept_images;
 
 struct cs_svg_place; /* below */
+struct cs_svg_clock;
 
 typedef struct cs_svg_reading {
   celspan_context *context;
@@ -70,14 +71,14 @@ typedef struct cs_svg_reading {
                            const struct cs_svg_place *place, celspan_box *out, bool *is_there);
   /* Colours keep their codes: in masks, unless the whole drawing is coded. */
   bool is_coded;
-  celspan_space space;  /* the space of the drawing and of its parts */
-  double seconds;       /* the time of its animations; below 0: none of them is run */
-  bool keeps_file;      /* a drawing that may move keeps a copy of it (read.h) */
-  uint64_t tests;       /* how many tests of selectors are left */
-  uint32_t drawn;       /* elements so far */
-  uint32_t depth;       /* how many elements that are being built contain each other */
-  uint32_t drawings;    /* that were read as images so far */
-  uint64_t image_bytes; /* the image bytes of images so far */
+  celspan_space space;              /* the space of the drawing and of its parts */
+  const struct cs_svg_clock *clock; /* motion.h; NULL: animations are not run */
+  double seconds;                   /* the time of its animations; below 0: none of them is run */
+  uint64_t tests;                   /* how many tests of selectors are left */
+  uint32_t drawn;                   /* elements so far */
+  uint32_t depth;                   /* how many elements that are being built contain each other */
+  uint32_t drawings;                /* that were read as images so far */
+  uint64_t image_bytes;             /* of images so far */
   cs_svg_kept_images images;
   /* The drawing includes drawings in other files, or a file that it names could not be shown: the
    * next reading may give another drawing. */

@@ -1,20 +1,30 @@
-#include "readers/svg/motion/motion_compose.h"
+/* Values of animations that are added to the values without them. */
+#include "readers/svg/motion/motion_values.h"
 
 #include <string.h>
 
 #include "readers/svg/words/names.h"
 
+#define SUM 8192 /* the most bytes of a list to which another is added */
+
 /* The functions of both lists. */
 static celspan_status join(const cs_css_place *place, cs_svg_name name, const char *first,
-                           const char *second, cs_svg_mixed *out) {
+                           cs_svg_mixed *value) {
+  const char *second;
+  CS_TRY(cs_svg_mixed_write(place, value, &second));
+  if (!second)
+    return CELSPAN_OK;
   size_t size = strlen(first) + strlen(second) + 2;
+  if (strlen(first) > SUM)
+    return cs_fail(place->context, CELSPAN_LIMIT,
+                   "line %u: too many transforms are added to each other", place->line);
   char *text = cs_arena_take(place->context, place->arena, size);
   if (!text)
     return CELSPAN_NO_MEMORY;
   strcpy(text, first);
   strcat(text, " ");
   strcat(text, second);
-  return cs_svg_mixed_read(place, name, text, out);
+  return cs_svg_mixed_read(place, name, text, value);
 }
 
 static bool is_nothing(const cs_svg_mixed *value) { return cs_svg_is_word(value->text, "none"); }
@@ -41,7 +51,7 @@ celspan_status cs_svg_motion_compose(const cs_css_place *place, cs_svg_name name
     return CELSPAN_OK;
   }
   if (is_list && !(is_sum && fits))
-    return join(place, name, under->text, value->text, value);
+    return join(place, name, under->text, value);
   if (!fits)
     return CELSPAN_OK;
   if (name == CS_SVG_SCALE && !is_sum && value->count == 2)

@@ -8,14 +8,7 @@ typedef struct cs_svg_animation {
   const cs_svg_node *node;
   cs_svg_node *target; /* NULL: none */
   cs_svg_name name;    /* CS_SVG_NAME_COUNT: of animateMotion, or unknown */
-  bool freezes;
 } cs_svg_animation;
-
-/* The place of an animation at a time. */
-typedef struct cs_svg_progress {
-  double share; /* the share of the simple duration, 0..1 */
-  double round; /* how many were completed */
-} cs_svg_progress;
 
 /* The place where values of this element are made. */
 cs_css_place cs_svg_motion_place(const cs_svg_reading *reading, const cs_svg_node *node);

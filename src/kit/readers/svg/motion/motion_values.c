@@ -279,13 +279,14 @@ static bool read_value(reader *r, cs_svg_name name, const char *text) {
 
 celspan_status cs_svg_mixed_read(const cs_css_place *place, cs_svg_name name, const char *text,
                                  cs_svg_mixed *out) {
-  /* A number takes a byte at least, and half of a function of transform one more. */
-  size_t size = strlen(text), most = 2 * size + 4;
+  /* A number takes a byte at least, half of a function of transform, with one more, many, and a
+   * colour may have three for four. */
+  size_t size = strlen(text), most = size + 4;
   *out = (cs_svg_mixed){.text = text};
   if (size > CS_SVG_MIXED_NUMBERS)
     return CELSPAN_OK;
   out->numbers = cs_arena_take(place->context, place->arena, most * sizeof *out->numbers);
-  reader r = {out, cs_arena_take(place->context, place->arena, 2 * most + 16), 0};
+  reader r = {out, cs_arena_take(place->context, place->arena, 4 * most + 16), 0};
   if (!out->numbers || !r.frame)
     return CELSPAN_NO_MEMORY;
   bool is_read = read_value(&r, name, text);

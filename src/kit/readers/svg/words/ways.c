@@ -37,8 +37,6 @@ static size_t piece_at(const cs_svg_way *way, double distance) {
   return low;
 }
 
-double cs_svg_direction(double x, double y) { return cs_elementary_atan2(y, x) * DEGREES; }
-
 celspan_point cs_svg_way_at(const cs_svg_way *way, double distance, double *degrees) {
   size_t piece = piece_at(way, distance);
   size_t next = piece + 1;
@@ -51,6 +49,6 @@ celspan_point cs_svg_way_at(const cs_svg_way *way, double distance, double *degr
   cs_curve_line_at(&line, t, &point, &velocity);
   if (velocity.x == 0 && velocity.y == 0)
     velocity = cs_curve_departure(&line);
-  *degrees = cs_svg_direction(velocity.x, velocity.y);
+  *degrees = cs_elementary_atan2(velocity.y, velocity.x) * DEGREES;
   return point;
 }

@@ -14,8 +14,6 @@ typedef struct cs_svg_way {
 CELSPAN_CHECKED celspan_status cs_svg_way_measure(celspan_context *context, cs_svg_way *way);
 void cs_svg_way_finish(cs_svg_way *way, cs_memory *memory);
 
-/* The angle of a vector in degrees. */
-double cs_svg_direction(double x, double y);
 /* The point at a distance 0 .. length from the beginning of the line, and the direction of the line
  * there in degrees. The line has a length. */
 celspan_point cs_svg_way_at(const cs_svg_way *way, double distance, double *degrees);
