@@ -25,7 +25,7 @@
  * cs_program_libraries. A folder that ends with a slash is followed by the folder of the module's
  * sources. */
 static const char *const folders[] = {
-    "./", "../", "src/kit/", "../src/kit/", "celspan", "../../celspan", "../../src/kit/", ".",
+    "./", "../", "src/", "../src/", "celspan", "../../celspan", "../../src/", ".",
 };
 
 /* Where a module was searched for, and the first error of the system other than a missing file,

@@ -8,13 +8,13 @@ tree.__index = tree
 --- The folder of headers through which the other houses see the core; it comes after the core.
 tree.DOOR = "core/inside"
 
+-- Folders of the kit that are no part of the library.
 local BUILT_APART = { "kit/plugins/moving", "kit/plugins/cairo", "kit/plugins/ocio",
   "kit/plugins/oiio", "kit/plugins/raster", "kit/plugins/type", "kit/plugins/icc",
-  "kit/plugins/web", "kit/lua/bind", "kit/lua/nouns", "kit/lua/module", "kit/lua/sandbox",
-  "desk/program" }
+  "kit/plugins/web", "kit/lua/bind", "kit/lua/nouns", "kit/lua/module", "kit/lua/sandbox" }
 
---- The rank of each folder in the list of src/meson.build, followed by those that are built
---- separately.
+--- The rank of each folder: the list of src/meson.build, where the door follows the core, folders
+--- that are built apart follow the kit, and the program follows all.
 function tree.folder_ranks(root)
   local file = assert(io.open(root .. "/src/meson.build", "r"))
   local list = file:read("a"):match "foreach%s+layer%s*:%s*(%b[])"
@@ -30,10 +30,12 @@ function tree.folder_ranks(root)
     if name:find "^kit/" then
       add(tree.DOOR)
       add "kit/include"
+    elseif name:find "^desk/" then
+      for _, apart in ipairs(BUILT_APART) do add(apart) end
     end
     add(name)
   end
-  for _, name in ipairs(BUILT_APART) do add(name) end
+  add "desk/program"
   return ranks
 end
 
