@@ -30,8 +30,8 @@ install -D -m 755 "$build/celspan.so" "$(LIBDIR)/celspan.so" &&
 install -D -m 644 "$build/lua/celspan.d.lua" "$(PREFIX)/annotations/celspan.d.lua" &&
 for module in plugins/oiio/celspan-picture.so plugins/type/celspan-art.so plugins/icc/celspan-colour.so \
   plugins/cairo/celspan-pdf.so; do
-  if [ -f "$build/src/$module" ]; then
-    install -D -m 755 "$build/src/$module" "$(LIBDIR)/celspan/${module##*/}" || exit 1
+  if [ -f "$build/src/kit/$module" ]; then
+    install -D -m 755 "$build/src/kit/$module" "$(LIBDIR)/celspan/${module##*/}" || exit 1
   fi
 done]],
 }

@@ -155,7 +155,7 @@ return {
     { "return info->currentline > 0 && info->source[0] == '@' && !is_own(info);", "`>` to `>=`",
       "lines count from 1, and a function without lines has line -1" },
   },
-  ["src/kit/tools/track/plane.c"] = {
+  ["src/kit/tools/track/grey.c"] = {
     { "return a->y != b->y ? a->y < b->y : a->x < b->x;", "`<` to `<=`",
       "the two differ, as the question before it says", 1 },
     { "return a->y != b->y ? a->y < b->y : a->x < b->x;", "`<` to `<=`",

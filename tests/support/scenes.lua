@@ -9,6 +9,9 @@
 -- random numbers.
 local prng = require "tests.support.prng"
 
+-- By its whole path, as scenes are read from several folders.
+local FONT = os.getenv "PWD" .. "/scripts/type/block.ttf"
+
 local scenes = {}
 local maker = {}
 maker.__index = maker
@@ -387,9 +390,8 @@ function maker:text()
   if self.random:once(2) then
     fields[#fields + 1] = (", variations = { wght = %s }"):format(self:number(200, 900))
   end
-  return ("celspan.text{ %q, font = \"../../scripts/type/block.ttf\", size = %s, at = %s, align = "
-    .. "%q%s, texture = %s }")
-    :format(table.concat(words), self:number(4, 40), self:point_text(),
+  return ("celspan.text{ %q, font = %q, size = %s, at = %s, align = %q%s, texture = %s }")
+    :format(table.concat(words), FONT, self:number(4, 40), self:point_text(),
       self.random:pick { "left", "centre", "right" }, table.concat(fields), self:texture())
 end
 
