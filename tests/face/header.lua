@@ -3,16 +3,22 @@
 
 local header = {}
 
-local FOLDER = "src/include/celspan/"
+--- Where the public headers are, for `include` and for a compiler.
+local FOLDERS = { "src/core/include/", "src/kit/include/" }
+header.INCLUDE = "-I" .. table.concat(FOLDERS, " -I")
 --- The headers of the C library, in an order in which each needs only those before it.
 header.FILES = { "celspan.h", "operators.h", "text.h", "svg.h", "layers.h", "trace.h", "plane.h",
   "relight.h", "track.h", "film.h" }
 --- The header of the Lua face, which is a library of its own.
 header.LUA = "lua.h"
 
-local function read(path)
-  local file = assert(io.open(path))
-  local text = file:read "a"
+--- The text of a header, which is in one of the folders.
+local function read(root, name)
+  local file
+  for _, folder in ipairs(FOLDERS) do
+    file = file or io.open(root .. folder .. "celspan/" .. name)
+  end
+  local text = assert(file, name):read "a"
   file:close()
   return text
 end
@@ -132,7 +138,7 @@ end
 function header.plain(root, files)
   local lines = {}
   for _, name in ipairs(files or header.FILES) do
-    local text, depth, first = plain(read(root .. FOLDER .. name)), 0, 1
+    local text, depth, first = plain(read(root, name)), 0, 1
     for at, mark in text:gmatch "()([{};])" do
       depth = depth + (mark == "{" and 1 or mark == "}" and -1 or 0)
       if mark == ";" and depth == 0 then

@@ -2,6 +2,7 @@
 local present = require "tests.support.present"
 local system = require "tests.support.system"
 local workbench = require "tests.support.workbench"
+local header = dofile "tests/face/header.lua"
 
 local BINARY, BUILD = workbench.binary, workbench.build
 
@@ -51,9 +52,9 @@ int main(void) {
     local test = present.program(compiler) and it or pending
     test("give no warning under " .. compiler .. " " .. mode, function()
       write("header.c", source)
-      good("%s %s -pedantic -Wall -Wextra -Wshadow -Werror -fsyntax-only -Isrc/include %s "
+      good("%s %s -pedantic -Wall -Wextra -Wshadow -Werror -fsyntax-only %s %s "
         .. "%s/header.c",
-        compiler, mode, "$(pkg-config --cflags lua5.4)", folder)
+        compiler, mode, header.INCLUDE, "$(pkg-config --cflags lua5.4)", folder)
     end)
   end
 end)

@@ -125,8 +125,8 @@ describe("a host", function()
   end
 
   local function compiled(name, compiler)
-    good("%s -pedantic -Wall -Wextra -Werror -Isrc/include -o %s/%s examples/hello.c %s", compiler,
-      folder, name, "-x none '" .. LIBRARY .. "'")
+    good("%s -pedantic -Wall -Wextra -Werror %s -o %s/%s examples/hello.c %s", compiler,
+      header.INCLUDE, folder, name, "-x none '" .. LIBRARY .. "'")
     draws(name, "LD_LIBRARY_PATH='%s/src' %s/%s %s/%s.png", BUILD, folder, name, folder, name)
   end
 
@@ -152,8 +152,8 @@ describe("a host", function()
   in_clang("of Microsoft's compiler reads the headers: no attributes of GNU's", function()
     for _, language in ipairs { "c -std=c17", "c++ -std=c++17" } do
       good("for name in %s; do echo '#include <celspan/'$name'>'; done | clang -x %s - -Wall "
-        .. "-Werror -fsyntax-only --target=x86_64-pc-windows-msvc -ffreestanding -Isrc/include "
-        .. "'-D__attribute__(x)=@'", table.concat(header.FILES, " "), language)
+        .. "-Werror -fsyntax-only --target=x86_64-pc-windows-msvc -ffreestanding %s "
+        .. "'-D__attribute__(x)=@'", table.concat(header.FILES, " "), language, header.INCLUDE)
     end
   end)
 
