@@ -74,7 +74,7 @@ typedef struct cs_mark { /* see base/mark.h */
   struct cs_text *name;  /* NULL: none */
   const char *source;    /* NULL: not known; else the memory's */
   int32_t line;          /* the line of the source, from 1; 0: not known */
-  /* the lines that called this line: a number of lua/bind/named.h; 0: not known */
+  /* the lines that called this line: a number that the host gives; 0: not known */
   uint32_t callers;
 } cs_mark;
 

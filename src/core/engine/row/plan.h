@@ -1,6 +1,6 @@
 /* The plan: a rostrum compiled for a frame of some size, in the flat form that rows are made from.
  *
- *   rostrum --render/compile.c--> plan --row/row.c, once a worker--> rows of spans
+ *   rostrum --frames/render/compile.c--> plan --engine/row/row.c, once a worker--> rows of spans
  *
  * Invariant: a plan never changes once it is made, so threads share it. It borrows the textures,
  * pictures and procedures of the rostrum, which must outlive it.

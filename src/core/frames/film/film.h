@@ -1,5 +1,5 @@
 /* A film and its frames as the core sees them. Who builds the frames does not matter here: a
- * script, through lua/nouns/lua_film.h, or anything else that can give exposures for a number.
+ * script, through celspan/lua.h, or anything else that can give exposures for a number.
  *
  * INVARIANT: the exposures of a frame keep their scene alive by references of their own, so that a
  * frame can be rendered by any thread after its builder has gone on to the next one.

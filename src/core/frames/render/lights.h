@@ -3,8 +3,8 @@
  *   what it is                what it becomes
  *   front light, flat         the front of each layer
  *   front light with a shape  a layer in front of its group, which it lights
- *   back light, flat          a light between layers (compose/over.h); inside an object, a flat
- *                             layer of the frame, and its matte belongs to the layer of the frame
+ *   back light, flat          a light between layers (engine/compose/over.h); inside an object, a
+ *                             flat layer of the frame, whose matte is of the layer of the frame
  *   back light with a shape   a layer as large as the film whose pigments add to the light; for
  *                             its matte another one, behind all others of the film, because a matte
  *                             dims nothing that the film shows

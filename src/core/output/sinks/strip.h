@@ -1,4 +1,4 @@
-/* Strips: pictures that are some rows of a larger one, made apart and joined (writers/join/join.h).
+/* Strips: pictures that are some rows of a larger one, made apart and joined later.
  *
  *   row 0     +--------------+   a strip of 512 rows; row 0 of 1300
  *             |              |
