@@ -2,6 +2,7 @@
 #
 #   (gdb) source tests/support/gdb.py
 #   (gdb) print *row                  a row of spans, one line for each span
+#   (gdb) print *area                 the edges of a row, and the cells on their right
 #   (gdb) print $layers(composer)     the layers present at the place of the composer's walk
 import gdb
 import gdb.printing
@@ -41,6 +42,26 @@ class RowPrinter:
             yield "[%d]" % i, self.row["spans"][i]
 
 
+class AreaPrinter:
+    """[0] = layer 0 at 2.9 to 2.7: 0.2 of [2, 3), then (1 0 0 1), once the edges are measured."""
+
+    def __init__(self, area):
+        self.active, self.edges = area["tools"]["active"], area["edges"]
+        self.cells = area["tools"]["cells"]["cells"]
+
+    def to_string(self):
+        return "%d edges" % self.active["count"]
+
+    def children(self):
+        active, edges = self.active, self.edges
+        for i in range(int(active["count"])):
+            cell = self.cells[i + 1]
+            yield "[%d]" % i, "layer %d at %g to %g: %g of [%d, %d), then %s" % (
+                active["crossing"][i]["layer"], active["x"][i], active["x_next"][i],
+                edges["area"][i], edges["first"][i], edges["end"][i],
+                "a program" if cell["length"] else colour(cell["colour"]))
+
+
 class Layers(gdb.Function):
     """$layers(COMPOSER): the numbers of the layers whose bit is set in its set."""
 
@@ -56,6 +77,7 @@ class Layers(gdb.Function):
 
 printers = gdb.printing.RegexpCollectionPrettyPrinter("celspan")
 printers.add_printer("span", "^celspan_span$", SpanPrinter)
+printers.add_printer("area", "^cs_area$", AreaPrinter)
 printers.add_printer("row", "^cs_row$", RowPrinter)
 gdb.printing.register_pretty_printer(None, printers, replace=True)
 Layers()
