@@ -1,4 +1,5 @@
-/* A row, a composer and the edges of a row with values that gdb prints (spec/gdb_spec.lua). It is never run. */
+/* A row, a composer and the edges of a row with values that gdb prints (spec/gdb_spec.lua). It is
+ * never run. */
 #include "engine/area/area.h"
 #include "engine/compose/composer.h"
 #include "engine/span/row.h"
