@@ -7,160 +7,70 @@
 #include "inside/number.h"
 #include "readers/svg/words/transforms.h"
 
-/* The colours that have names, sorted. Source: CSS Color Module Level 4, 6.1. */
+/* The colours that have names, sorted, with 0xRRGGBB. Source: CSS Color Module Level 4, 6.1. */
+#define COLOUR_LIST(COLOUR)                                                                        \
+  COLOUR(aliceblue, 0xf0f8ff), COLOUR(antiquewhite, 0xfaebd7), COLOUR(aqua, 0x00ffff),             \
+      COLOUR(aquamarine, 0x7fffd4), COLOUR(azure, 0xf0ffff), COLOUR(beige, 0xf5f5dc),              \
+      COLOUR(bisque, 0xffe4c4), COLOUR(black, 0x000000), COLOUR(blanchedalmond, 0xffebcd),         \
+      COLOUR(blue, 0x0000ff), COLOUR(blueviolet, 0x8a2be2), COLOUR(brown, 0xa52a2a),               \
+      COLOUR(burlywood, 0xdeb887), COLOUR(cadetblue, 0x5f9ea0), COLOUR(chartreuse, 0x7fff00),      \
+      COLOUR(chocolate, 0xd2691e), COLOUR(coral, 0xff7f50), COLOUR(cornflowerblue, 0x6495ed),      \
+      COLOUR(cornsilk, 0xfff8dc), COLOUR(crimson, 0xdc143c), COLOUR(cyan, 0x00ffff),               \
+      COLOUR(darkblue, 0x00008b), COLOUR(darkcyan, 0x008b8b), COLOUR(darkgoldenrod, 0xb8860b),     \
+      COLOUR(darkgray, 0xa9a9a9), COLOUR(darkgreen, 0x006400), COLOUR(darkgrey, 0xa9a9a9),         \
+      COLOUR(darkkhaki, 0xbdb76b), COLOUR(darkmagenta, 0x8b008b),                                  \
+      COLOUR(darkolivegreen, 0x556b2f), COLOUR(darkorange, 0xff8c00),                              \
+      COLOUR(darkorchid, 0x9932cc), COLOUR(darkred, 0x8b0000), COLOUR(darksalmon, 0xe9967a),       \
+      COLOUR(darkseagreen, 0x8fbc8f), COLOUR(darkslateblue, 0x483d8b),                             \
+      COLOUR(darkslategray, 0x2f4f4f), COLOUR(darkslategrey, 0x2f4f4f),                            \
+      COLOUR(darkturquoise, 0x00ced1), COLOUR(darkviolet, 0x9400d3), COLOUR(deeppink, 0xff1493),   \
+      COLOUR(deepskyblue, 0x00bfff), COLOUR(dimgray, 0x696969), COLOUR(dimgrey, 0x696969),         \
+      COLOUR(dodgerblue, 0x1e90ff), COLOUR(firebrick, 0xb22222), COLOUR(floralwhite, 0xfffaf0),    \
+      COLOUR(forestgreen, 0x228b22), COLOUR(fuchsia, 0xff00ff), COLOUR(gainsboro, 0xdcdcdc),       \
+      COLOUR(ghostwhite, 0xf8f8ff), COLOUR(gold, 0xffd700), COLOUR(goldenrod, 0xdaa520),           \
+      COLOUR(gray, 0x808080), COLOUR(green, 0x008000), COLOUR(greenyellow, 0xadff2f),              \
+      COLOUR(grey, 0x808080), COLOUR(honeydew, 0xf0fff0), COLOUR(hotpink, 0xff69b4),               \
+      COLOUR(indianred, 0xcd5c5c), COLOUR(indigo, 0x4b0082), COLOUR(ivory, 0xfffff0),              \
+      COLOUR(khaki, 0xf0e68c), COLOUR(lavender, 0xe6e6fa), COLOUR(lavenderblush, 0xfff0f5),        \
+      COLOUR(lawngreen, 0x7cfc00), COLOUR(lemonchiffon, 0xfffacd), COLOUR(lightblue, 0xadd8e6),    \
+      COLOUR(lightcoral, 0xf08080), COLOUR(lightcyan, 0xe0ffff),                                   \
+      COLOUR(lightgoldenrodyellow, 0xfafad2), COLOUR(lightgray, 0xd3d3d3),                         \
+      COLOUR(lightgreen, 0x90ee90), COLOUR(lightgrey, 0xd3d3d3), COLOUR(lightpink, 0xffb6c1),      \
+      COLOUR(lightsalmon, 0xffa07a), COLOUR(lightseagreen, 0x20b2aa),                              \
+      COLOUR(lightskyblue, 0x87cefa), COLOUR(lightslategray, 0x778899),                            \
+      COLOUR(lightslategrey, 0x778899), COLOUR(lightsteelblue, 0xb0c4de),                          \
+      COLOUR(lightyellow, 0xffffe0), COLOUR(lime, 0x00ff00), COLOUR(limegreen, 0x32cd32),          \
+      COLOUR(linen, 0xfaf0e6), COLOUR(magenta, 0xff00ff), COLOUR(maroon, 0x800000),                \
+      COLOUR(mediumaquamarine, 0x66cdaa), COLOUR(mediumblue, 0x0000cd),                            \
+      COLOUR(mediumorchid, 0xba55d3), COLOUR(mediumpurple, 0x9370db),                              \
+      COLOUR(mediumseagreen, 0x3cb371), COLOUR(mediumslateblue, 0x7b68ee),                         \
+      COLOUR(mediumspringgreen, 0x00fa9a), COLOUR(mediumturquoise, 0x48d1cc),                      \
+      COLOUR(mediumvioletred, 0xc71585), COLOUR(midnightblue, 0x191970),                           \
+      COLOUR(mintcream, 0xf5fffa), COLOUR(mistyrose, 0xffe4e1), COLOUR(moccasin, 0xffe4b5),        \
+      COLOUR(navajowhite, 0xffdead), COLOUR(navy, 0x000080), COLOUR(oldlace, 0xfdf5e6),            \
+      COLOUR(olive, 0x808000), COLOUR(olivedrab, 0x6b8e23), COLOUR(orange, 0xffa500),              \
+      COLOUR(orangered, 0xff4500), COLOUR(orchid, 0xda70d6), COLOUR(palegoldenrod, 0xeee8aa),      \
+      COLOUR(palegreen, 0x98fb98), COLOUR(paleturquoise, 0xafeeee),                                \
+      COLOUR(palevioletred, 0xdb7093), COLOUR(papayawhip, 0xffefd5), COLOUR(peachpuff, 0xffdab9),  \
+      COLOUR(peru, 0xcd853f), COLOUR(pink, 0xffc0cb), COLOUR(plum, 0xdda0dd),                      \
+      COLOUR(powderblue, 0xb0e0e6), COLOUR(purple, 0x800080), COLOUR(rebeccapurple, 0x663399),     \
+      COLOUR(red, 0xff0000), COLOUR(rosybrown, 0xbc8f8f), COLOUR(royalblue, 0x4169e1),             \
+      COLOUR(saddlebrown, 0x8b4513), COLOUR(salmon, 0xfa8072), COLOUR(sandybrown, 0xf4a460),       \
+      COLOUR(seagreen, 0x2e8b57), COLOUR(seashell, 0xfff5ee), COLOUR(sienna, 0xa0522d),            \
+      COLOUR(silver, 0xc0c0c0), COLOUR(skyblue, 0x87ceeb), COLOUR(slateblue, 0x6a5acd),            \
+      COLOUR(slategray, 0x708090), COLOUR(slategrey, 0x708090), COLOUR(snow, 0xfffafa),            \
+      COLOUR(springgreen, 0x00ff7f), COLOUR(steelblue, 0x4682b4), COLOUR(tan, 0xd2b48c),           \
+      COLOUR(teal, 0x008080), COLOUR(thistle, 0xd8bfd8), COLOUR(tomato, 0xff6347),                 \
+      COLOUR(turquoise, 0x40e0d0), COLOUR(violet, 0xee82ee), COLOUR(wheat, 0xf5deb3),              \
+      COLOUR(white, 0xffffff), COLOUR(whitesmoke, 0xf5f5f5), COLOUR(yellow, 0xffff00),             \
+      COLOUR(yellowgreen, 0x9acd32)
+
+#define COLOUR(name, rgb)                                                                          \
+  { #name, rgb }
 static const struct named_colour {
   const char *name;
   uint32_t rgb;
-} named_colours[] = {
-    {"aliceblue", 0xf0f8ff},
-    {"antiquewhite", 0xfaebd7},
-    {"aqua", 0x00ffff},
-    {"aquamarine", 0x7fffd4},
-    {"azure", 0xf0ffff},
-    {"beige", 0xf5f5dc},
-    {"bisque", 0xffe4c4},
-    {"black", 0x000000},
-    {"blanchedalmond", 0xffebcd},
-    {"blue", 0x0000ff},
-    {"blueviolet", 0x8a2be2},
-    {"brown", 0xa52a2a},
-    {"burlywood", 0xdeb887},
-    {"cadetblue", 0x5f9ea0},
-    {"chartreuse", 0x7fff00},
-    {"chocolate", 0xd2691e},
-    {"coral", 0xff7f50},
-    {"cornflowerblue", 0x6495ed},
-    {"cornsilk", 0xfff8dc},
-    {"crimson", 0xdc143c},
-    {"cyan", 0x00ffff},
-    {"darkblue", 0x00008b},
-    {"darkcyan", 0x008b8b},
-    {"darkgoldenrod", 0xb8860b},
-    {"darkgray", 0xa9a9a9},
-    {"darkgreen", 0x006400},
-    {"darkgrey", 0xa9a9a9},
-    {"darkkhaki", 0xbdb76b},
-    {"darkmagenta", 0x8b008b},
-    {"darkolivegreen", 0x556b2f},
-    {"darkorange", 0xff8c00},
-    {"darkorchid", 0x9932cc},
-    {"darkred", 0x8b0000},
-    {"darksalmon", 0xe9967a},
-    {"darkseagreen", 0x8fbc8f},
-    {"darkslateblue", 0x483d8b},
-    {"darkslategray", 0x2f4f4f},
-    {"darkslategrey", 0x2f4f4f},
-    {"darkturquoise", 0x00ced1},
-    {"darkviolet", 0x9400d3},
-    {"deeppink", 0xff1493},
-    {"deepskyblue", 0x00bfff},
-    {"dimgray", 0x696969},
-    {"dimgrey", 0x696969},
-    {"dodgerblue", 0x1e90ff},
-    {"firebrick", 0xb22222},
-    {"floralwhite", 0xfffaf0},
-    {"forestgreen", 0x228b22},
-    {"fuchsia", 0xff00ff},
-    {"gainsboro", 0xdcdcdc},
-    {"ghostwhite", 0xf8f8ff},
-    {"gold", 0xffd700},
-    {"goldenrod", 0xdaa520},
-    {"gray", 0x808080},
-    {"green", 0x008000},
-    {"greenyellow", 0xadff2f},
-    {"grey", 0x808080},
-    {"honeydew", 0xf0fff0},
-    {"hotpink", 0xff69b4},
-    {"indianred", 0xcd5c5c},
-    {"indigo", 0x4b0082},
-    {"ivory", 0xfffff0},
-    {"khaki", 0xf0e68c},
-    {"lavender", 0xe6e6fa},
-    {"lavenderblush", 0xfff0f5},
-    {"lawngreen", 0x7cfc00},
-    {"lemonchiffon", 0xfffacd},
-    {"lightblue", 0xadd8e6},
-    {"lightcoral", 0xf08080},
-    {"lightcyan", 0xe0ffff},
-    {"lightgoldenrodyellow", 0xfafad2},
-    {"lightgray", 0xd3d3d3},
-    {"lightgreen", 0x90ee90},
-    {"lightgrey", 0xd3d3d3},
-    {"lightpink", 0xffb6c1},
-    {"lightsalmon", 0xffa07a},
-    {"lightseagreen", 0x20b2aa},
-    {"lightskyblue", 0x87cefa},
-    {"lightslategray", 0x778899},
-    {"lightslategrey", 0x778899},
-    {"lightsteelblue", 0xb0c4de},
-    {"lightyellow", 0xffffe0},
-    {"lime", 0x00ff00},
-    {"limegreen", 0x32cd32},
-    {"linen", 0xfaf0e6},
-    {"magenta", 0xff00ff},
-    {"maroon", 0x800000},
-    {"mediumaquamarine", 0x66cdaa},
-    {"mediumblue", 0x0000cd},
-    {"mediumorchid", 0xba55d3},
-    {"mediumpurple", 0x9370db},
-    {"mediumseagreen", 0x3cb371},
-    {"mediumslateblue", 0x7b68ee},
-    {"mediumspringgreen", 0x00fa9a},
-    {"mediumturquoise", 0x48d1cc},
-    {"mediumvioletred", 0xc71585},
-    {"midnightblue", 0x191970},
-    {"mintcream", 0xf5fffa},
-    {"mistyrose", 0xffe4e1},
-    {"moccasin", 0xffe4b5},
-    {"navajowhite", 0xffdead},
-    {"navy", 0x000080},
-    {"oldlace", 0xfdf5e6},
-    {"olive", 0x808000},
-    {"olivedrab", 0x6b8e23},
-    {"orange", 0xffa500},
-    {"orangered", 0xff4500},
-    {"orchid", 0xda70d6},
-    {"palegoldenrod", 0xeee8aa},
-    {"palegreen", 0x98fb98},
-    {"paleturquoise", 0xafeeee},
-    {"palevioletred", 0xdb7093},
-    {"papayawhip", 0xffefd5},
-    {"peachpuff", 0xffdab9},
-    {"peru", 0xcd853f},
-    {"pink", 0xffc0cb},
-    {"plum", 0xdda0dd},
-    {"powderblue", 0xb0e0e6},
-    {"purple", 0x800080},
-    {"rebeccapurple", 0x663399},
-    {"red", 0xff0000},
-    {"rosybrown", 0xbc8f8f},
-    {"royalblue", 0x4169e1},
-    {"saddlebrown", 0x8b4513},
-    {"salmon", 0xfa8072},
-    {"sandybrown", 0xf4a460},
-    {"seagreen", 0x2e8b57},
-    {"seashell", 0xfff5ee},
-    {"sienna", 0xa0522d},
-    {"silver", 0xc0c0c0},
-    {"skyblue", 0x87ceeb},
-    {"slateblue", 0x6a5acd},
-    {"slategray", 0x708090},
-    {"slategrey", 0x708090},
-    {"snow", 0xfffafa},
-    {"springgreen", 0x00ff7f},
-    {"steelblue", 0x4682b4},
-    {"tan", 0xd2b48c},
-    {"teal", 0x008080},
-    {"thistle", 0xd8bfd8},
-    {"tomato", 0xff6347},
-    {"turquoise", 0x40e0d0},
-    {"violet", 0xee82ee},
-    {"wheat", 0xf5deb3},
-    {"white", 0xffffff},
-    {"whitesmoke", 0xf5f5f5},
-    {"yellow", 0xffff00},
-    {"yellowgreen", 0x9acd32},
-};
+} named_colours[] = {COLOUR_LIST(COLOUR)};
 
 static cs_svg_colour of_bytes(unsigned r, unsigned g, unsigned b, unsigned a) {
   return (cs_svg_colour){{r / 255.0, g / 255.0, b / 255.0}, a / 255.0};

@@ -50,193 +50,181 @@ typedef enum cs_svg_element {
   CS_SVG_ELEMENT_COUNT = CS_SVG_ELEMENT_OTHER
 } cs_svg_element;
 
+/* Each name: its enumerator after CS_SVG_, its text, its use and its form. WITH has the words that
+ * are values and the initial value, too (cs_svg_name_facts). */
+#define CS_SVG_NAME_LIST(NAME, WITH)                                                               \
+  NAME(ACCUMULATE, "accumulate", ATTRIBUTE, ANY), NAME(ADDITIVE, "additive", ATTRIBUTE, ANY),      \
+      WITH(ALIGNMENT_BASELINE, "alignment-baseline", PRESENTED, WORD,                              \
+           BASELINES "|top|center|bottom", NULL),                                                  \
+      NAME(AMPLITUDE, "amplitude", ATTRIBUTE, ANY), NAME(ANIMATION, "animation", STYLED, ANY),     \
+      NAME(ANIMATION_COMPOSITION, "animation-composition", STYLED, ANY),                           \
+      NAME(ANIMATION_DELAY, "animation-delay", STYLED, ANY),                                       \
+      NAME(ANIMATION_DIRECTION, "animation-direction", STYLED, ANY),                               \
+      NAME(ANIMATION_DURATION, "animation-duration", STYLED, ANY),                                 \
+      NAME(ANIMATION_FILL_MODE, "animation-fill-mode", STYLED, ANY),                               \
+      NAME(ANIMATION_ITERATION_COUNT, "animation-iteration-count", STYLED, ANY),                   \
+      NAME(ANIMATION_NAME, "animation-name", STYLED, ANY),                                         \
+      NAME(ANIMATION_PLAY_STATE, "animation-play-state", STYLED, ANY),                             \
+      NAME(ANIMATION_TIMING_FUNCTION, "animation-timing-function", STYLED, ANY),                   \
+      NAME(ATTRIBUTE_NAME, "attributeName", ATTRIBUTE, ANY),                                       \
+      NAME(AZIMUTH, "azimuth", ATTRIBUTE, ANY),                                                    \
+      NAME(BASE_FREQUENCY, "baseFrequency", ATTRIBUTE, ANY),                                       \
+      WITH(BASELINE_SHIFT, "baseline-shift", PRESENTED, LENGTH, "baseline|sub|super", NULL),       \
+      NAME(BEGIN, "begin", ATTRIBUTE, ANY), NAME(BIAS, "bias", ATTRIBUTE, ANY),                    \
+      NAME(BY, "by", ATTRIBUTE, ANY), NAME(CALC_MODE, "calcMode", ATTRIBUTE, ANY),                 \
+      NAME(CLASS, "class", ATTRIBUTE, ANY), NAME(CLIP_PATH, "clip-path", PRESENTED, ANY),          \
+      WITH(CLIP_RULE, "clip-rule", PRESENTED, WORD, "nonzero|evenodd", "nonzero"),                 \
+      WITH(CLIP_PATH_UNITS, "clipPathUnits", ATTRIBUTE, WORD, "userSpaceOnUse|objectBoundingBox",  \
+           NULL),                                                                                  \
+      WITH(COLOR, "color", PRESENTED, COLOUR, NULL, "black"),                                      \
+      WITH(COLOR_INTERPOLATION_FILTERS, "color-interpolation-filters", PRESENTED, WORD,            \
+           "auto|sRGB|linearRGB", "linearRGB"),                                                    \
+      NAME(CX, "cx", GEOMETRY, LENGTH), NAME(CY, "cy", GEOMETRY, LENGTH),                          \
+      NAME(D, "d", GEOMETRY, ANY), NAME(DIFFUSE_CONSTANT, "diffuseConstant", ATTRIBUTE, ANY),      \
+      WITH(DIRECTION, "direction", PRESENTED, WORD, "ltr|rtl", "ltr"),                             \
+      NAME(DISPLAY, "display", PRESENTED, ANY), NAME(DIVISOR, "divisor", ATTRIBUTE, ANY),          \
+      WITH(DOMINANT_BASELINE, "dominant-baseline", PRESENTED, WORD,                                \
+           BASELINES "|use-script|no-change|reset-size", "auto"),                                  \
+      NAME(DUR, "dur", ATTRIBUTE, ANY), NAME(DX, "dx", ATTRIBUTE, LENGTHS),                        \
+      NAME(DY, "dy", ATTRIBUTE, LENGTHS), NAME(EDGE_MODE, "edgeMode", ATTRIBUTE, ANY),             \
+      NAME(ELEVATION, "elevation", ATTRIBUTE, ANY), NAME(END, "end", ATTRIBUTE, ANY),              \
+      NAME(EXPONENT, "exponent", ATTRIBUTE, ANY),                                                  \
+      WITH(FILL, "fill", PRESENTED, PAINT, NULL, "black"),                                         \
+      WITH(FILL_OPACITY, "fill-opacity", PRESENTED, SHARE, NULL, "1"),                             \
+      WITH(FILL_RULE, "fill-rule", PRESENTED, WORD, "nonzero|evenodd", "nonzero"),                 \
+      WITH(FILTER, "filter", PRESENTED, FILTERS, "none|inherit", NULL),                            \
+      WITH(FILTER_UNITS, "filterUnits", ATTRIBUTE, WORD, "userSpaceOnUse|objectBoundingBox",       \
+           NULL),                                                                                  \
+      WITH(FLOOD_COLOR, "flood-color", PRESENTED, COLOUR, "inherit", NULL),                        \
+      NAME(FLOOD_OPACITY, "flood-opacity", PRESENTED, SHARE),                                      \
+      WITH(FONT_FAMILY, "font-family", PRESENTED, ANY, NULL, ""),                                  \
+      WITH(FONT_SIZE, "font-size", PRESENTED, SIZE,                                                \
+           "xx-small|x-small|small|medium|large|x-large|xx-large|xxx-large|smaller|larger",        \
+           "medium"),                                                                              \
+      WITH(FONT_STYLE, "font-style", PRESENTED, SLANT, "normal|italic|oblique", "normal"),         \
+      WITH(FONT_WEIGHT, "font-weight", PRESENTED, NUMBER, "normal|bold|bolder|lighter", "normal"), \
+      NAME(FR, "fr", ATTRIBUTE, LENGTH), NAME(FROM, "from", ATTRIBUTE, ANY),                       \
+      NAME(FX, "fx", ATTRIBUTE, LENGTH), NAME(FY, "fy", ATTRIBUTE, LENGTH),                        \
+      NAME(GRADIENT_TRANSFORM, "gradientTransform", ATTRIBUTE, TRANSFORM),                         \
+      WITH(GRADIENT_UNITS, "gradientUnits", ATTRIBUTE, WORD, "userSpaceOnUse|objectBoundingBox",   \
+           NULL),                                                                                  \
+      WITH(HEIGHT, "height", GEOMETRY, LENGTH, "auto", NULL), NAME(HREF, "href", ATTRIBUTE, ANY),  \
+      NAME(ID, "id", ATTRIBUTE, ANY), NAME(IN, "in", ATTRIBUTE, ANY),                              \
+      NAME(IN2, "in2", ATTRIBUTE, ANY), NAME(INTERCEPT, "intercept", ATTRIBUTE, ANY),              \
+      WITH(ISOLATION, "isolation", STYLED, WORD, "auto|isolate", NULL),                            \
+      NAME(K1, "k1", ATTRIBUTE, ANY), NAME(K2, "k2", ATTRIBUTE, ANY),                              \
+      NAME(K3, "k3", ATTRIBUTE, ANY), NAME(K4, "k4", ATTRIBUTE, ANY),                              \
+      NAME(KERNEL_MATRIX, "kernelMatrix", ATTRIBUTE, ANY),                                         \
+      NAME(KERNEL_UNIT_LENGTH, "kernelUnitLength", ATTRIBUTE, ANY),                                \
+      NAME(KEY_POINTS, "keyPoints", ATTRIBUTE, ANY),                                               \
+      NAME(KEY_SPLINES, "keySplines", ATTRIBUTE, ANY),                                             \
+      NAME(KEY_TIMES, "keyTimes", ATTRIBUTE, ANY), NAME(LABEL, "label", ATTRIBUTE, ANY),           \
+      WITH(LENGTH_ADJUST, "lengthAdjust", ATTRIBUTE, WORD, "spacing|spacingAndGlyphs", NULL),      \
+      WITH(LETTER_SPACING, "letter-spacing", PRESENTED, LENGTH, "normal", "normal"),               \
+      WITH(LIGHTING_COLOR, "lighting-color", PRESENTED, COLOUR, "inherit", NULL),                  \
+      NAME(LIMITING_CONE_ANGLE, "limitingConeAngle", ATTRIBUTE, ANY),                              \
+      WITH(MARKER, "marker", STYLED, REFERENCE, "none", "none"),                                   \
+      WITH(MARKER_END, "marker-end", PRESENTED, REFERENCE, "none", "none"),                        \
+      WITH(MARKER_MID, "marker-mid", PRESENTED, REFERENCE, "none", "none"),                        \
+      WITH(MARKER_START, "marker-start", PRESENTED, REFERENCE, "none", "none"),                    \
+      NAME(MARKER_HEIGHT, "markerHeight", ATTRIBUTE, LENGTH),                                      \
+      WITH(MARKER_UNITS, "markerUnits", ATTRIBUTE, WORD, "strokeWidth|userSpaceOnUse", NULL),      \
+      NAME(MARKER_WIDTH, "markerWidth", ATTRIBUTE, LENGTH),                                        \
+      WITH(MASK, "mask", PRESENTED, REFERENCE, "none|inherit", NULL),                              \
+      WITH(MASK_TYPE, "mask-type", PRESENTED, WORD, "luminance|alpha", NULL),                      \
+      WITH(MASK_CONTENT_UNITS, "maskContentUnits", ATTRIBUTE, WORD,                                \
+           "userSpaceOnUse|objectBoundingBox", NULL),                                              \
+      WITH(MASK_UNITS, "maskUnits", ATTRIBUTE, WORD, "userSpaceOnUse|objectBoundingBox", NULL),    \
+      NAME(MAX, "max", ATTRIBUTE, ANY), NAME(MEDIA, "media", ATTRIBUTE, ANY),                      \
+      NAME(MIN, "min", ATTRIBUTE, ANY),                                                            \
+      WITH(MIX_BLEND_MODE, "mix-blend-mode", STYLED, WORD, BLEND_MODES, NULL),                     \
+      NAME(MODE, "mode", ATTRIBUTE, ANY), NAME(NUM_OCTAVES, "numOctaves", ATTRIBUTE, ANY),         \
+      NAME(OFFSET, "offset", ATTRIBUTE, SHARE), NAME(OFFSET_ANCHOR, "offset-anchor", STYLED, ANY), \
+      NAME(OFFSET_DISTANCE, "offset-distance", STYLED, DISTANCE),                                  \
+      NAME(OFFSET_PATH, "offset-path", STYLED, WAY),                                               \
+      NAME(OFFSET_ROTATE, "offset-rotate", STYLED, HEADING),                                       \
+      WITH(OPACITY, "opacity", PRESENTED, SHARE, "inherit", NULL),                                 \
+      NAME(OPERATOR, "operator", ATTRIBUTE, ANY), NAME(ORDER, "order", ATTRIBUTE, ANY),            \
+      WITH(ORIENT, "orient", ATTRIBUTE, ANGLE, "auto|auto-start-reverse", NULL),                   \
+      WITH(OVERFLOW, "overflow", PRESENTED, WORD, "visible|hidden|scroll|auto|clip|inherit",       \
+           NULL),                                                                                  \
+      WITH(PAINT_ORDER, "paint-order", PRESENTED, ORDER, "normal", "normal"),                      \
+      NAME(PATH, "path", ATTRIBUTE, ANY), NAME(PATH_LENGTH, "pathLength", ATTRIBUTE, NUMBER),      \
+      WITH(PATTERN_CONTENT_UNITS, "patternContentUnits", ATTRIBUTE, WORD,                          \
+           "userSpaceOnUse|objectBoundingBox", NULL),                                              \
+      NAME(PATTERN_TRANSFORM, "patternTransform", ATTRIBUTE, TRANSFORM),                           \
+      WITH(PATTERN_UNITS, "patternUnits", ATTRIBUTE, WORD, "userSpaceOnUse|objectBoundingBox",     \
+           NULL),                                                                                  \
+      NAME(POINTS, "points", ATTRIBUTE, ANY), NAME(POINTS_AT_X, "pointsAtX", ATTRIBUTE, ANY),      \
+      NAME(POINTS_AT_Y, "pointsAtY", ATTRIBUTE, ANY),                                              \
+      NAME(POINTS_AT_Z, "pointsAtZ", ATTRIBUTE, ANY),                                              \
+      NAME(PRESERVE_ALPHA, "preserveAlpha", ATTRIBUTE, ANY),                                       \
+      NAME(PRESERVE_ASPECT_RATIO, "preserveAspectRatio", ATTRIBUTE, ASPECT),                       \
+      WITH(PRIMITIVE_UNITS, "primitiveUnits", ATTRIBUTE, WORD, "userSpaceOnUse|objectBoundingBox", \
+           NULL),                                                                                  \
+      NAME(R, "r", GEOMETRY, LENGTH), NAME(RADIUS, "radius", ATTRIBUTE, ANY),                      \
+      WITH(REF_X, "refX", ATTRIBUTE, LENGTH, "left|center|right", NULL),                           \
+      WITH(REF_Y, "refY", ATTRIBUTE, LENGTH, "top|center|bottom", NULL),                           \
+      NAME(REPEAT_COUNT, "repeatCount", ATTRIBUTE, ANY),                                           \
+      NAME(REPEAT_DUR, "repeatDur", ATTRIBUTE, ANY),                                               \
+      NAME(REQUIRED_EXTENSIONS, "requiredExtensions", ATTRIBUTE, ANY),                             \
+      NAME(REQUIRED_FEATURES, "requiredFeatures", ATTRIBUTE, ANY),                                 \
+      NAME(RESTART, "restart", ATTRIBUTE, ANY), NAME(RESULT, "result", ATTRIBUTE, ANY),            \
+      NAME(ROTATE, "rotate", APART, ROTATION), WITH(RX, "rx", GEOMETRY, LENGTH, "auto", NULL),     \
+      WITH(RY, "ry", GEOMETRY, LENGTH, "auto", NULL),                                              \
+      WITH(SCALE, "scale", STYLED, SCALE, "none", NULL), NAME(SEED, "seed", ATTRIBUTE, ANY),       \
+      WITH(SIDE, "side", ATTRIBUTE, WORD, "left|right", NULL),                                     \
+      NAME(SLOPE, "slope", ATTRIBUTE, ANY),                                                        \
+      WITH(SPACE, "space", ATTRIBUTE, WORD, "default|preserve", NULL),                             \
+      NAME(SPECULAR_CONSTANT, "specularConstant", ATTRIBUTE, ANY),                                 \
+      NAME(SPECULAR_EXPONENT, "specularExponent", ATTRIBUTE, ANY),                                 \
+      WITH(SPREAD_METHOD, "spreadMethod", ATTRIBUTE, WORD, "pad|reflect|repeat", NULL),            \
+      NAME(START_OFFSET, "startOffset", ATTRIBUTE, LENGTH),                                        \
+      NAME(STD_DEVIATION, "stdDeviation", ATTRIBUTE, ANY),                                         \
+      NAME(STITCH_TILES, "stitchTiles", ATTRIBUTE, ANY),                                           \
+      WITH(STOP_COLOR, "stop-color", PRESENTED, COLOUR, "inherit", NULL),                          \
+      NAME(STOP_OPACITY, "stop-opacity", PRESENTED, SHARE),                                        \
+      WITH(STROKE, "stroke", PRESENTED, PAINT, NULL, "none"),                                      \
+      WITH(STROKE_DASHARRAY, "stroke-dasharray", PRESENTED, LENGTHS, "none", "none"),              \
+      WITH(STROKE_DASHOFFSET, "stroke-dashoffset", PRESENTED, LENGTH, NULL, "0"),                  \
+      WITH(STROKE_LINECAP, "stroke-linecap", PRESENTED, WORD, "butt|round|square", "butt"),        \
+      WITH(STROKE_LINEJOIN, "stroke-linejoin", PRESENTED, WORD,                                    \
+           "miter|miter-clip|arcs|round|bevel", "miter"),                                          \
+      WITH(STROKE_MITERLIMIT, "stroke-miterlimit", PRESENTED, NUMBER, NULL, "4"),                  \
+      WITH(STROKE_OPACITY, "stroke-opacity", PRESENTED, SHARE, NULL, "1"),                         \
+      WITH(STROKE_WIDTH, "stroke-width", PRESENTED, SIZE, NULL, "1"),                              \
+      NAME(STYLE, "style", ATTRIBUTE, ANY), NAME(SURFACE_SCALE, "surfaceScale", ATTRIBUTE, ANY),   \
+      NAME(SYSTEM_LANGUAGE, "systemLanguage", ATTRIBUTE, ANY),                                     \
+      NAME(TABLE_VALUES, "tableValues", ATTRIBUTE, ANY),                                           \
+      NAME(TARGET_X, "targetX", ATTRIBUTE, ANY), NAME(TARGET_Y, "targetY", ATTRIBUTE, ANY),        \
+      WITH(TEXT_ANCHOR, "text-anchor", PRESENTED, WORD, "start|middle|end", "start"),              \
+      WITH(TEXT_DECORATION, "text-decoration", PRESENTED, WORD, "none", NULL),                     \
+      NAME(TEXT_LENGTH, "textLength", ATTRIBUTE, LENGTH), NAME(TO, "to", ATTRIBUTE, ANY),          \
+      WITH(TRANSFORM, "transform", PRESENTED, TRANSFORM, "none|inherit", NULL),                    \
+      WITH(TRANSFORM_BOX, "transform-box", STYLED, WORD, "view-box|fill-box|content-box", NULL),   \
+      NAME(TRANSFORM_ORIGIN, "transform-origin", PRESENTED, ANY),                                  \
+      WITH(TRANSLATE, "translate", STYLED, TRANSLATE, "none", NULL),                               \
+      NAME(TYPE, "type", ATTRIBUTE, ANY), NAME(VALUES, "values", ATTRIBUTE, ANY),                  \
+      WITH(VECTOR_EFFECT, "vector-effect", PRESENTED, WORD, "none|non-scaling-stroke", NULL),      \
+      NAME(VIEW_BOX, "viewBox", ATTRIBUTE, VIEW_BOX),                                              \
+      WITH(VISIBILITY, "visibility", PRESENTED, WORD, "visible|hidden|collapse", "visible"),       \
+      WITH(WIDTH, "width", GEOMETRY, LENGTH, "auto", NULL),                                        \
+      WITH(WORD_SPACING, "word-spacing", PRESENTED, LENGTH, "normal", "normal"),                   \
+      WITH(WRITING_MODE, "writing-mode", PRESENTED, WORD, "horizontal-tb|lr|lr-tb",                \
+           "horizontal-tb"),                                                                       \
+      NAME(X, "x", GEOMETRY, LENGTHS), NAME(X1, "x1", ATTRIBUTE, LENGTH),                          \
+      NAME(X2, "x2", ATTRIBUTE, LENGTH),                                                           \
+      NAME(X_CHANNEL_SELECTOR, "xChannelSelector", ATTRIBUTE, ANY),                                \
+      NAME(Y, "y", GEOMETRY, LENGTHS), NAME(Y1, "y1", ATTRIBUTE, LENGTH),                          \
+      NAME(Y2, "y2", ATTRIBUTE, LENGTH),                                                           \
+      NAME(Y_CHANNEL_SELECTOR, "yChannelSelector", ATTRIBUTE, ANY), NAME(Z, "z", ATTRIBUTE, ANY)
+
 typedef enum cs_svg_name {
-  CS_SVG_ACCUMULATE,
-  CS_SVG_ADDITIVE,
-  CS_SVG_ALIGNMENT_BASELINE,
-  CS_SVG_AMPLITUDE,
-  CS_SVG_ANIMATION,
-  CS_SVG_ANIMATION_COMPOSITION,
-  CS_SVG_ANIMATION_DELAY,
-  CS_SVG_ANIMATION_DIRECTION,
-  CS_SVG_ANIMATION_DURATION,
-  CS_SVG_ANIMATION_FILL_MODE,
-  CS_SVG_ANIMATION_ITERATION_COUNT,
-  CS_SVG_ANIMATION_NAME,
-  CS_SVG_ANIMATION_PLAY_STATE,
-  CS_SVG_ANIMATION_TIMING_FUNCTION,
-  CS_SVG_ATTRIBUTE_NAME,
-  CS_SVG_AZIMUTH,
-  CS_SVG_BASE_FREQUENCY,
-  CS_SVG_BASELINE_SHIFT,
-  CS_SVG_BEGIN,
-  CS_SVG_BIAS,
-  CS_SVG_BY,
-  CS_SVG_CALC_MODE,
-  CS_SVG_CLASS,
-  CS_SVG_CLIP_PATH,
-  CS_SVG_CLIP_RULE,
-  CS_SVG_CLIP_PATH_UNITS,
-  CS_SVG_COLOR,
-  CS_SVG_COLOR_INTERPOLATION_FILTERS,
-  CS_SVG_CX,
-  CS_SVG_CY,
-  CS_SVG_D,
-  CS_SVG_DIFFUSE_CONSTANT,
-  CS_SVG_DIRECTION,
-  CS_SVG_DISPLAY,
-  CS_SVG_DIVISOR,
-  CS_SVG_DOMINANT_BASELINE,
-  CS_SVG_DUR,
-  CS_SVG_DX,
-  CS_SVG_DY,
-  CS_SVG_EDGE_MODE,
-  CS_SVG_ELEVATION,
-  CS_SVG_END,
-  CS_SVG_EXPONENT,
-  CS_SVG_FILL,
-  CS_SVG_FILL_OPACITY,
-  CS_SVG_FILL_RULE,
-  CS_SVG_FILTER,
-  CS_SVG_FILTER_UNITS,
-  CS_SVG_FLOOD_COLOR,
-  CS_SVG_FLOOD_OPACITY,
-  CS_SVG_FONT_FAMILY,
-  CS_SVG_FONT_SIZE,
-  CS_SVG_FONT_STYLE,
-  CS_SVG_FONT_WEIGHT,
-  CS_SVG_FR,
-  CS_SVG_FROM,
-  CS_SVG_FX,
-  CS_SVG_FY,
-  CS_SVG_GRADIENT_TRANSFORM,
-  CS_SVG_GRADIENT_UNITS,
-  CS_SVG_HEIGHT,
-  CS_SVG_HREF,
-  CS_SVG_ID,
-  CS_SVG_IN,
-  CS_SVG_IN2,
-  CS_SVG_INTERCEPT,
-  CS_SVG_ISOLATION,
-  CS_SVG_K1,
-  CS_SVG_K2,
-  CS_SVG_K3,
-  CS_SVG_K4,
-  CS_SVG_KERNEL_MATRIX,
-  CS_SVG_KERNEL_UNIT_LENGTH,
-  CS_SVG_KEY_POINTS,
-  CS_SVG_KEY_SPLINES,
-  CS_SVG_KEY_TIMES,
-  CS_SVG_LABEL,
-  CS_SVG_LENGTH_ADJUST,
-  CS_SVG_LETTER_SPACING,
-  CS_SVG_LIGHTING_COLOR,
-  CS_SVG_LIMITING_CONE_ANGLE,
-  CS_SVG_MARKER,
-  CS_SVG_MARKER_END,
-  CS_SVG_MARKER_MID,
-  CS_SVG_MARKER_START,
-  CS_SVG_MARKER_HEIGHT,
-  CS_SVG_MARKER_UNITS,
-  CS_SVG_MARKER_WIDTH,
-  CS_SVG_MASK,
-  CS_SVG_MASK_TYPE,
-  CS_SVG_MASK_CONTENT_UNITS,
-  CS_SVG_MASK_UNITS,
-  CS_SVG_MAX,
-  CS_SVG_MEDIA,
-  CS_SVG_MIN,
-  CS_SVG_MIX_BLEND_MODE,
-  CS_SVG_MODE,
-  CS_SVG_NUM_OCTAVES,
-  CS_SVG_OFFSET,
-  CS_SVG_OFFSET_ANCHOR,
-  CS_SVG_OFFSET_DISTANCE,
-  CS_SVG_OFFSET_PATH,
-  CS_SVG_OFFSET_ROTATE,
-  CS_SVG_OPACITY,
-  CS_SVG_OPERATOR,
-  CS_SVG_ORDER,
-  CS_SVG_ORIENT,
-  CS_SVG_OVERFLOW,
-  CS_SVG_PAINT_ORDER,
-  CS_SVG_PATH,
-  CS_SVG_PATH_LENGTH,
-  CS_SVG_PATTERN_CONTENT_UNITS,
-  CS_SVG_PATTERN_TRANSFORM,
-  CS_SVG_PATTERN_UNITS,
-  CS_SVG_POINTS,
-  CS_SVG_POINTS_AT_X,
-  CS_SVG_POINTS_AT_Y,
-  CS_SVG_POINTS_AT_Z,
-  CS_SVG_PRESERVE_ALPHA,
-  CS_SVG_PRESERVE_ASPECT_RATIO,
-  CS_SVG_PRIMITIVE_UNITS,
-  CS_SVG_R,
-  CS_SVG_RADIUS,
-  CS_SVG_REF_X,
-  CS_SVG_REF_Y,
-  CS_SVG_REPEAT_COUNT,
-  CS_SVG_REPEAT_DUR,
-  CS_SVG_REQUIRED_EXTENSIONS,
-  CS_SVG_REQUIRED_FEATURES,
-  CS_SVG_RESTART,
-  CS_SVG_RESULT,
-  CS_SVG_ROTATE,
-  CS_SVG_RX,
-  CS_SVG_RY,
-  CS_SVG_SCALE,
-  CS_SVG_SEED,
-  CS_SVG_SIDE,
-  CS_SVG_SLOPE,
-  CS_SVG_SPACE,
-  CS_SVG_SPECULAR_CONSTANT,
-  CS_SVG_SPECULAR_EXPONENT,
-  CS_SVG_SPREAD_METHOD,
-  CS_SVG_START_OFFSET,
-  CS_SVG_STD_DEVIATION,
-  CS_SVG_STITCH_TILES,
-  CS_SVG_STOP_COLOR,
-  CS_SVG_STOP_OPACITY,
-  CS_SVG_STROKE,
-  CS_SVG_STROKE_DASHARRAY,
-  CS_SVG_STROKE_DASHOFFSET,
-  CS_SVG_STROKE_LINECAP,
-  CS_SVG_STROKE_LINEJOIN,
-  CS_SVG_STROKE_MITERLIMIT,
-  CS_SVG_STROKE_OPACITY,
-  CS_SVG_STROKE_WIDTH,
-  CS_SVG_STYLE,
-  CS_SVG_SURFACE_SCALE,
-  CS_SVG_SYSTEM_LANGUAGE,
-  CS_SVG_TABLE_VALUES,
-  CS_SVG_TARGET_X,
-  CS_SVG_TARGET_Y,
-  CS_SVG_TEXT_ANCHOR,
-  CS_SVG_TEXT_DECORATION,
-  CS_SVG_TEXT_LENGTH,
-  CS_SVG_TO,
-  CS_SVG_TRANSFORM,
-  CS_SVG_TRANSFORM_BOX,
-  CS_SVG_TRANSFORM_ORIGIN,
-  CS_SVG_TRANSLATE,
-  CS_SVG_TYPE,
-  CS_SVG_VALUES,
-  CS_SVG_VECTOR_EFFECT,
-  CS_SVG_VIEW_BOX,
-  CS_SVG_VISIBILITY,
-  CS_SVG_WIDTH,
-  CS_SVG_WORD_SPACING,
-  CS_SVG_WRITING_MODE,
-  CS_SVG_X,
-  CS_SVG_X1,
-  CS_SVG_X2,
-  CS_SVG_X_CHANNEL_SELECTOR,
-  CS_SVG_Y,
-  CS_SVG_Y1,
-  CS_SVG_Y2,
-  CS_SVG_Y_CHANNEL_SELECTOR,
-  CS_SVG_Z,
+#define NAME(name, text, use, form) CS_SVG_##name
+#define WITH(name, text, use, form, words, initial) CS_SVG_##name
+  CS_SVG_NAME_LIST(NAME, WITH),
+#undef NAME
+#undef WITH
   CS_SVG_NAME_COUNT
 } cs_svg_name;
 
