@@ -25,7 +25,6 @@
 
 #include <math.h>
 
-#include "base/number.h"
 #include "base/self_check.h"
 #include "engine/area/intervals.h"
 #include "engine/area/window.h"

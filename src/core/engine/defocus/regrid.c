@@ -3,8 +3,6 @@
 #include "base/number.h"
 #include "base/vector.h"
 
-#include <math.h>
-
 /* ---------------------------------------------------------------- places */
 
 /* The node before a place, and the weights of the cubic through the four nodes around it. The

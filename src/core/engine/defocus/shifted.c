@@ -3,7 +3,6 @@
 #include <math.h>
 
 #include "base/number.h"
-#include "model/colour/space.h"
 #include "model/geometry/matrix.h"
 
 #define TAPS 2048      /* at most */

@@ -3,7 +3,6 @@
 #include "engine/paint/colours.h"
 #include "engine/paint/shade.h"
 #include "model/colour/grade.h"
-#include "model/geometry/matrix.h"
 
 /* ---------------------------------------------------------------- the place */
 

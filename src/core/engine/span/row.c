@@ -2,7 +2,6 @@
 
 #include <string.h>
 
-#include "base/number.h"
 #include "model/colour/space.h"
 
 void cs_row_init(cs_row *row) {

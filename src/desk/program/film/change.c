@@ -84,8 +84,7 @@ static celspan_status change_one(celspan_context *context, const cs_frame_change
   CS_TRY(CS_MAKE(context, cels, most));
   celspan_status status = change_into(context, change, from, cels, &changed);
   cs_mem_free(context->memory, cels, most * sizeof *cels);
-  if (status != CELSPAN_OK)
-    return status;
+  CS_TRY(status);
   celspan_rostrum_unref(from);
   exposure->rostrum = changed;
   return CELSPAN_OK;
@@ -111,8 +110,7 @@ static celspan_status add_ground(celspan_context *context, const cs_frame_change
     cs_mem_free(context->memory, exposures, count * sizeof *exposures);
   }
   celspan_rostrum_unref(rostrum);
-  if (status != CELSPAN_OK)
-    return status;
+  CS_TRY(status);
   changed.repeats = frame->repeats;
   cs_film_frame_finish(frame);
   *frame = changed;

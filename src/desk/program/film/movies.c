@@ -79,9 +79,7 @@ static int open_movie(lua_State *L) {
   const char *path = luaL_checkstring(L, 1), *tried = luaL_optstring(L, 2, NULL);
   cs_movie **movie =
       cs_userdata_push_holder(L, "celspan.program.movie", sizeof(cs_movie *), release_movie);
-  celspan_status status = cs_movie_open(cs_host_context(L), path, tried, movie);
-  if (status != CELSPAN_OK)
-    return cs_host_fail(L, status);
+  CS_HOST_TRY(L, cs_movie_open(cs_host_context(L), path, tried, movie));
   push_facts(L, *movie);
   lua_pushvalue(L, -2);
   lua_pushcclosure(L, picture, 1);

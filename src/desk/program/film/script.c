@@ -161,9 +161,7 @@ static heard *begin_hearing(lua_State *L, const char **path, const char **tried)
 static int hear(lua_State *L) {
   const char *path, *tried;
   cs_loudness *loudness = &begin_hearing(L, &path, &tried)->loudness;
-  celspan_status status = cs_loudness_measure(cs_host_context(L), path, tried, loudness);
-  if (status != CELSPAN_OK)
-    return cs_host_fail(L, status);
+  CS_HOST_TRY(L, cs_loudness_measure(cs_host_context(L), path, tried, loudness));
   lua_pushnumber(L, (double)loudness->moments / CS_SOUND_HEARD_RATE);
   lua_pushlstring(L, (const char *)loudness->sums, loudness->count * sizeof *loudness->sums);
   return 2;
@@ -173,9 +171,7 @@ static int hear(lua_State *L) {
 static int hear_spectrum(lua_State *L) {
   const char *path, *tried;
   cs_spectrum *spectrum = &begin_hearing(L, &path, &tried)->spectrum;
-  celspan_status status = cs_spectrum_measure(cs_host_context(L), path, tried, spectrum);
-  if (status != CELSPAN_OK)
-    return cs_host_fail(L, status);
+  CS_HOST_TRY(L, cs_spectrum_measure(cs_host_context(L), path, tried, spectrum));
   lua_pushlstring(L, (const char *)spectrum->steps, spectrum->count * sizeof *spectrum->steps);
   return 1;
 }

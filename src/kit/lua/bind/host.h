@@ -80,7 +80,15 @@ void cs_host_try(lua_State *L, const char *noun, celspan_status status);
  * sandbox a lack of memory is raised instead, as by cs_host_try: the results of a script must not
  * depend on it. */
 int cs_host_fail(lua_State *L, celspan_status status);
-/* The same, for a reader: what is too large or too deep for it is a fault of the file (INPUT). */
+/* Ends a function in this way if a call fails. */
+#define CS_HOST_TRY(L, call)                                                                       \
+  do {                                                                                             \
+    celspan_status try_status_ = (call);                                                           \
+    if (try_status_ != CELSPAN_OK)                                                                 \
+      return cs_host_fail(L, try_status_);                                                         \
+  } while (0)
+/* The same as cs_host_fail, for a reader: what is too large or too deep for it is a fault of the
+ * file (INPUT). */
 int cs_host_fail_input(lua_State *L, celspan_status status);
 /* The status of a message that was raised: the core's own when the message contains the core's
  * sentence, else CALLBACK. */

@@ -11,7 +11,6 @@
 
 #include "inside/files.h"
 #include "inside/films.h"
-#include "lua/module/core.h"
 
 enum { HEAD = 64 };
 

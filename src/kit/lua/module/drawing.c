@@ -19,7 +19,6 @@
 #include "celspan/svg.h"
 #include "inside/colour.h"
 #include "lua/bind/bare.h"
-#include "lua/bind/caller.h"
 #include "lua/bind/form.h"
 #include "lua/bind/host.h"
 #include "lua/bind/named.h"

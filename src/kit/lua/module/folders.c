@@ -104,10 +104,8 @@ int cs_folders_frames(lua_State *L) {
   const char *pattern = luaL_checkstring(L, 1), *list = luaL_optstring(L, 2, NULL);
   celspan_context *context = cs_host_context(L);
   cs_sequence *sequence = push_sequence(L);
-  celspan_status status = list ? cs_sequence_parse(context, list, NULL, sequence)
-                               : cs_sequence_list(context, pattern, sequence);
-  if (status != CELSPAN_OK)
-    return cs_host_fail(L, status);
+  CS_HOST_TRY(L, list ? cs_sequence_parse(context, list, NULL, sequence)
+                      : cs_sequence_list(context, pattern, sequence));
   push_numbers(L, sequence);
   return 1;
 }
@@ -115,10 +113,8 @@ int cs_folders_frames(lua_State *L) {
 int cs_folders_frame_name(lua_State *L) {
   char name[4096];
   celspan_context *context = cs_host_context(L);
-  celspan_status status =
-      cs_sequence_name(context, luaL_checkstring(L, 1), luaL_checkinteger(L, 2), name, sizeof name);
-  if (status != CELSPAN_OK)
-    return cs_host_fail(L, status);
+  CS_HOST_TRY(L, cs_sequence_name(context, luaL_checkstring(L, 1), luaL_checkinteger(L, 2), name,
+                                  sizeof name));
   lua_pushstring(L, name);
   return 1;
 }

@@ -74,9 +74,7 @@ int cs_painting_read(lua_State *L) {
   celspan_context *context = cs_host_context(L);
   celspan_painting **painting = push_holder(L);
   int32_t width, height;
-  celspan_status status = celspan_painting_read(context, path, painting);
-  if (status != CELSPAN_OK)
-    return cs_host_fail(L, status);
+  CS_HOST_TRY(L, celspan_painting_read(context, path, painting));
   celspan_painting_size(*painting, &width, &height);
   lua_createtable(L, 0, 4);
   cs_put_integer(L, "width", width);

@@ -177,9 +177,7 @@ int cs_parcels_list(lua_State *L) {
   celspan_plane **plane = luaL_checkudata(L, 1, CS_CORE_PLANE);
   held *h = cs_userdata_push_holder(L, "celspan.parcels", sizeof *h, release);
   h->context = cs_host_context(L);
-  celspan_status status = make(h, *plane);
-  if (status != CELSPAN_OK)
-    return cs_host_fail(L, status);
+  CS_HOST_TRY(L, make(h, *plane));
   lua_Integer count = 0;
   lua_newtable(L);
   for (size_t i = h->parcels.fill_count; i-- > 0;) {

@@ -12,7 +12,6 @@
 #include "lua/bind/put.h"
 #include "lua/bind/userdata.h"
 #include "lua/module/core.h"
-#include "lua/nouns/nouns.h"
 #include "lua/nouns/options.h"
 
 enum { PLACE_SIZE = 64, PATH_SIZE = 512 };

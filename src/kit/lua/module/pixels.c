@@ -110,11 +110,8 @@ static int write_image(lua_State *L) {
   if (!cs_host_may_write(L, lua_tostring(L, 2)))
     return cs_host_fail(L, CELSPAN_CALLBACK);
   celspan_sink sink = CELSPAN_SINK;
-  celspan_status status = celspan_file_sink_create(context, lua_tostring(L, 2), &file, &sink);
-  if (status == CELSPAN_OK)
-    status = sink.end(sink.user, context, write_rows(context, &sink, picture));
-  if (status != CELSPAN_OK)
-    return cs_host_fail(L, status);
+  CS_HOST_TRY(L, celspan_file_sink_create(context, lua_tostring(L, 2), &file, &sink));
+  CS_HOST_TRY(L, sink.end(sink.user, context, write_rows(context, &sink, picture)));
   lua_pushboolean(L, true);
   return 1;
 }
@@ -182,9 +179,7 @@ int cs_pixels_make(lua_State *L) {
   lua_settop(L, 2);
   cs_options options;
   const celspan_frame_desc *desc = &options.desc;
-  celspan_status status = cs_subject_read(L, &cs_noun_pixels, &options);
-  if (status != CELSPAN_OK)
-    return cs_host_fail(L, status);
+  CS_HOST_TRY(L, cs_subject_read(L, &cs_noun_pixels, &options));
   float *out = push_image(&options.form, desc);
   int32_t width = desc->crop_width ? desc->crop_width : desc->width;
   celspan_coding coding = {.struct_size = sizeof coding,
@@ -192,8 +187,8 @@ int cs_pixels_make(lua_State *L) {
                            .transfer = CELSPAN_TRANSFER_LINEAR,
                            .alpha = CELSPAN_ALPHA_PREMULTIPLIED};
   lua_State *before = cs_host_enter(L);
-  status = celspan_frame_pixels(cs_host_context(L), desc, &coding, out,
-                                (size_t)width * 4 * sizeof(float), NULL);
+  celspan_status status = celspan_frame_pixels(cs_host_context(L), desc, &coding, out,
+                                               (size_t)width * 4 * sizeof(float), NULL);
   cs_host_leave(L, before);
   return status == CELSPAN_OK ? 1 : cs_host_fail(L, status);
 }

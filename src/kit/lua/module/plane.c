@@ -88,9 +88,7 @@ static int write_plane(lua_State *L) {
                            cs_userdata_type(L, 2));
   if (!cs_host_may_write(L, lua_tostring(L, 2)))
     return cs_host_fail(L, CELSPAN_CALLBACK);
-  celspan_status status = celspan_plane_write(cs_host_context(L), plane, lua_tostring(L, 2));
-  if (status != CELSPAN_OK)
-    return cs_host_fail(L, status);
+  CS_HOST_TRY(L, celspan_plane_write(cs_host_context(L), plane, lua_tostring(L, 2)));
   lua_pushboolean(L, true);
   return 1;
 }

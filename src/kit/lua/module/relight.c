@@ -28,8 +28,7 @@ static cs_userdata *push_value(lua_State *L, celspan_context *context) {
 static int finish(lua_State *L, celspan_context *context, cs_userdata *value, celspan_status status,
                   celspan_texture *texture) {
   cs_named_end(context);
-  if (status != CELSPAN_OK)
-    return cs_host_fail(L, status);
+  CS_HOST_TRY(L, status);
   value->handle = texture;
   return 1;
 }
@@ -82,9 +81,7 @@ int cs_relight_size(lua_State *L) {
   celspan_context *context = cs_host_context(L);
   celspan_picture_info info;
   luaL_argcheck(L, texture->variation->picture, 1, "must be a picture");
-  celspan_status status = cs_store_info(context, texture->variation->picture, &info);
-  if (status != CELSPAN_OK)
-    return cs_host_fail(L, status);
+  CS_HOST_TRY(L, cs_store_info(context, texture->variation->picture, &info));
   lua_pushinteger(L, info.width);
   lua_pushinteger(L, info.height);
   return 2;
@@ -103,9 +100,7 @@ int cs_relight_estimate(lua_State *L) {
   desc.is_uneven = lua_toboolean(L, 5);
   desc.blank = lua_isnoneornil(L, 6) ? NULL : texture_at(L, 6);
   celspan_light_field field;
-  celspan_status status = celspan_light_estimate(context, &desc, &field);
-  if (status != CELSPAN_OK)
-    return cs_host_fail(L, status);
+  CS_HOST_TRY(L, celspan_light_estimate(context, &desc, &field));
   push_field(L, &field, desc.is_uneven);
   return 1;
 }
@@ -171,9 +166,7 @@ int cs_relight_write(lua_State *L) {
   celspan_context *context = cs_host_context(L);
   if (!cs_host_may_write(L, path))
     return cs_host_fail(L, CELSPAN_CALLBACK);
-  celspan_status status = celspan_relight_write(context, texture, path);
-  if (status != CELSPAN_OK)
-    return cs_host_fail(L, status);
+  CS_HOST_TRY(L, celspan_relight_write(context, texture, path));
   lua_pushboolean(L, true);
   return 1;
 }

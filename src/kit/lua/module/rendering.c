@@ -1,5 +1,4 @@
 /* celspan.render: a film or a rostrum into files. */
-#include <string.h>
 
 #include "inside/films.h"
 #include "lua/bind/caller.h"

@@ -91,14 +91,10 @@ static int fill_protected(lua_State *L) {
 int cs_spans_make(lua_State *L) {
   lua_settop(L, 2);
   cs_options options;
-  celspan_status status = cs_subject_read(L, &cs_noun_spans, &options);
-  if (status != CELSPAN_OK)
-    return cs_host_fail(L, status);
+  CS_HOST_TRY(L, cs_subject_read(L, &cs_noun_spans, &options));
   int32_t range[2];
   celspan_rows **rows = push_rows(L);
-  status = celspan_rows_create(cs_host_context(L), &options.desc, rows);
-  if (status != CELSPAN_OK)
-    return cs_host_fail(L, status);
+  CS_HOST_TRY(L, celspan_rows_create(cs_host_context(L), &options.desc, rows));
   find_rows(&options, range);
   lua_newtable(L);
   int result = lua_gettop(L);
@@ -113,7 +109,7 @@ int cs_spans_make(lua_State *L) {
   *rows = NULL;
   if (outcome != LUA_OK)
     return lua_error(L);
-  status = (celspan_status)lua_tointeger(L, -1);
+  celspan_status status = (celspan_status)lua_tointeger(L, -1);
   lua_settop(L, result);
   return status == CELSPAN_OK ? 1 : cs_host_fail(L, status);
 }
@@ -126,14 +122,11 @@ int cs_spans_probe(lua_State *L) {
   lua_replace(L, 2); /* in other functions the options are argument 2 */
   double rgba[4];
   cs_options options;
-  celspan_status status = cs_subject_read(L, &cs_noun_probe, &options);
-  if (status != CELSPAN_OK)
-    return cs_host_fail(L, status);
+  CS_HOST_TRY(L, cs_subject_read(L, &cs_noun_probe, &options));
   lua_State *before = cs_host_enter(L);
-  status = celspan_probe(cs_host_context(L), &options.desc, point, rgba);
+  celspan_status status = celspan_probe(cs_host_context(L), &options.desc, point, rgba);
   cs_host_leave(L, before);
-  if (status != CELSPAN_OK)
-    return cs_host_fail(L, status);
+  CS_HOST_TRY(L, status);
   for (int c = 0; c < 4; c++)
     lua_pushnumber(L, rgba[c]);
   return 4;

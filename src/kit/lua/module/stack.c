@@ -68,15 +68,12 @@ int cs_stack_make(lua_State *L) {
   lua_settop(L, 2);
   cs_options options;
   celspan_context *context = cs_host_context(L);
-  celspan_status status = cs_subject_read(L, &cs_noun_stack, &options);
-  if (status != CELSPAN_OK)
-    return cs_host_fail(L, status);
+  CS_HOST_TRY(L, cs_subject_read(L, &cs_noun_stack, &options));
   holder *held = push_holder(L);
   lua_State *before = cs_host_enter(L);
-  status = celspan_stack_create(context, &options.desc, &held->stack);
+  celspan_status status = celspan_stack_create(context, &options.desc, &held->stack);
   cs_host_leave(L, before);
-  if (status != CELSPAN_OK)
-    return cs_host_fail(L, status);
+  CS_HOST_TRY(L, status);
   held->x = options.desc.crop_x;
   held->y = options.desc.crop_y;
   push_facts(L, options.desc.exposures[0].rostrum, options.desc.space, held->stack);

@@ -1,7 +1,6 @@
 #include "lua/module/subject.h"
 
 #include "inside/context.h"
-#include "lua/bind/host.h"
 #include "lua/bind/userdata.h"
 #include "lua/nouns/lua_film.h"
 

@@ -140,9 +140,7 @@ static celspan_status push_tracing(lua_State *L, const celspan_trace **out) {
 
 int cs_tracing_make(lua_State *L) {
   const celspan_trace *trace;
-  celspan_status status = push_tracing(L, &trace);
-  if (status != CELSPAN_OK)
-    return cs_host_fail(L, status);
+  CS_HOST_TRY(L, push_tracing(L, &trace));
   push_result(L, trace);
   return 1;
 }
@@ -152,11 +150,8 @@ int cs_tracing_write(lua_State *L) {
   const char *output = luaL_checkstring(L, 3);
   if (!cs_host_may_write(L, output))
     return cs_host_fail(L, CELSPAN_CALLBACK);
-  celspan_status status = push_tracing(L, &trace);
-  if (status == CELSPAN_OK)
-    status = celspan_trace_write(cs_host_context(L), trace, output);
-  if (status != CELSPAN_OK)
-    return cs_host_fail(L, status);
+  CS_HOST_TRY(L, push_tracing(L, &trace));
+  CS_HOST_TRY(L, celspan_trace_write(cs_host_context(L), trace, output));
   lua_pushboolean(L, true);
   return 1;
 }

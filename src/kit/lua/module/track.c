@@ -107,9 +107,7 @@ int cs_track_follow(lua_State *L) {
   celspan_luma luma =
       push_luma(L, 2, (int32_t)luaL_checkinteger(L, 3), (int32_t)luaL_checkinteger(L, 4));
   celspan_sighting sighting = CELSPAN_SIGHTING;
-  celspan_status status = celspan_tracker_follow(tracker, &luma, &sighting);
-  if (status != CELSPAN_OK)
-    return cs_host_fail(L, status);
+  CS_HOST_TRY(L, celspan_tracker_follow(tracker, &luma, &sighting));
   if (!sighting.is_found) {
     luaL_pushfail(L);
     return 1;

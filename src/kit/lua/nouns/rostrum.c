@@ -7,7 +7,6 @@
 #include "lua/nouns/nouns.h"
 #include "lua/nouns/options.h"
 #include "lua/nouns/placed.h"
-#include "lua/nouns/shape.h"
 #include "lua/nouns/space.h"
 
 #define DESC celspan_rostrum_desc

@@ -66,11 +66,8 @@ int cs_ruler_make(lua_State *L) {
   ruler *r = cs_userdata_push_holder(L, METATABLE, sizeof *r, release);
   cs_outline_init(&r->line);
   r->memory = cs_host_context(L)->memory;
-  celspan_status status = read_line(L, noun, r);
-  if (status == CELSPAN_OK)
-    status = measure(cs_host_context(L), r);
-  if (status != CELSPAN_OK)
-    return cs_host_fail(L, status);
+  CS_HOST_TRY(L, read_line(L, noun, r));
+  CS_HOST_TRY(L, measure(cs_host_context(L), r));
   lua_settop(L, 3);
   size_t count = r->line.piece_count;
   lua_pushnumber(L, count > 0 ? r->ends[count - 1] : 0);

@@ -1,7 +1,6 @@
 #include "lua/nouns/shape.h"
 
 #include "lua/bind/host.h"
-#include "lua/nouns/nouns.h"
 
 cs_userdata *cs_shape_at(lua_State *L, int index) {
   cs_userdata *value = cs_userdata_test(L, index, &cs_kind_object);

@@ -1,7 +1,5 @@
 #include "lua/nouns/sounds.h"
 
-#include <string.h>
-
 #include "common/address.h"
 #include "lua/bind/fields.h"
 #include "lua/bind/files.h"

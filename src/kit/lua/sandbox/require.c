@@ -7,7 +7,6 @@
 #include <sys/stat.h>
 
 #include "lua/bind/host.h"
-#include "lua/module/core.h"
 #include "lua/sandbox/guard.h"
 
 #define SOURCE_MOST ((off_t)16 << 20)

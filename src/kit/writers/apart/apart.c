@@ -199,8 +199,7 @@ static celspan_status take_mixing(celspan_context *context, cs_apart_layer *laye
   CS_TRY(change_mixing(context, cel, rest < 1 ? rest : 1, &changed));
   celspan_status status = cs_rostrum_with(context, from, &changed, 1, &rostrum);
   celspan_cel_unref(changed);
-  if (status != CELSPAN_OK)
-    return status;
+  CS_TRY(status);
   celspan_rostrum_unref(from);
   layer->exposures[0].rostrum = rostrum;
   return CELSPAN_OK;

@@ -40,9 +40,7 @@ static celspan_status make_scene(celspan_context *context, const celspan_picture
 }
 
 static celspan_status open_spans(celspan_context *context, const char *path, cs_still *still) {
-  celspan_status status = cs_span_reader_open(context, path, &still->spans);
-  if (status != CELSPAN_OK)
-    return status;
+  CS_TRY(cs_span_reader_open(context, path, &still->spans));
   spanfile_info info = cs_span_reader_info(still->spans);
   still->info = (celspan_picture_info){.width = (int32_t)info.width,
                                        .height = (int32_t)info.height,
@@ -63,9 +61,7 @@ static int32_t pixels(double units) {
 
 static celspan_status open_plane(celspan_context *context, const char *path, cs_still *still) {
   double width, height;
-  celspan_status status = celspan_plane_read(context, path, &still->plane);
-  if (status != CELSPAN_OK)
-    return status;
+  CS_TRY(celspan_plane_read(context, path, &still->plane));
   celspan_plane_size(still->plane, &width, &height);
   still->info = (celspan_picture_info){.width = pixels(width),
                                        .height = pixels(height),
@@ -188,11 +184,8 @@ static celspan_status put_rows(celspan_context *context, cs_still_rows *rows,
   for (int32_t y = 0; y < height; y++) {
     const celspan_span *spans;
     size_t count;
-    celspan_status status = cs_still_rows_get(rows, y, &spans, &count);
-    if (status == CELSPAN_OK)
-      status = sink->row(sink->user, context, y, spans, count);
-    if (status != CELSPAN_OK)
-      return status;
+    CS_TRY(cs_still_rows_get(rows, y, &spans, &count));
+    CS_TRY(sink->row(sink->user, context, y, spans, count));
     if (y % PROGRESS_ROWS == 0 && frame->progress &&
         !frame->progress(frame->progress_user, y, height))
       return CELSPAN_CANCELLED;

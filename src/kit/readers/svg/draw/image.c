@@ -157,8 +157,7 @@ static celspan_status show_drawing_file(image *of, const cs_svg_image_file *file
   CS_TRY(cs_svg_image_count(of->reading, of->node, file->size));
   celspan_status status = cs_svg_image_file_load(context, file, &bytes);
   of->reading->has_failed = status == CELSPAN_INPUT;
-  if (status != CELSPAN_OK)
-    return status;
+  CS_TRY(status);
   if (!bytes)
     return note(of, "the file changed while it was read");
   status = show_drawing(of, inner, bytes, (size_t)file->size);
@@ -173,8 +172,7 @@ static celspan_status show_linked(image *of, const char *href) {
   celspan_status status =
       cs_svg_image_file_find(reading->context, reading->source->file, href, &file, &reason);
   reading->has_failed = status == CELSPAN_INPUT;
-  if (status != CELSPAN_OK)
-    return status;
+  CS_TRY(status);
   if (!reason)
     CS_TRY(cs_svg_name_file(reading->context, reading->art, file.path));
   if (!reason && cs_svg_image_is_drawing(file.head, file.head_size))

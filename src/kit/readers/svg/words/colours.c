@@ -1,6 +1,5 @@
 #include "readers/svg/words/colours.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
