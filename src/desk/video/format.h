@@ -19,6 +19,7 @@
 #pragma once
 
 #include "common/sound_stream.h"
+#include "process/arguments.h"
 
 /* An encoder of ffmpeg with its pixels: see codec.c. */
 typedef struct cs_video_codec {
@@ -119,16 +120,6 @@ typedef struct cs_video_extras {
 
 enum { CS_VIDEO_SWATCHES = 16 }; /* pixels a side */
 
-enum { CS_VIDEO_ARGUMENTS = 160, CS_VIDEO_TEXT = 16384 };
-
-/* Arguments of ffmpeg, its name first. */
-typedef struct cs_video_command {
-  const char *arguments[CS_VIDEO_ARGUMENTS]; /* NULL at the end */
-  size_t count;
-  char text[CS_VIDEO_TEXT]; /* the text of formatted arguments */
-  size_t text_size;
-} cs_video_command;
-
 /* The format of that name, or else NULL. */
 const cs_video_format *cs_video_format_named(const char *name);
 /* The names of all formats, "mp4, mkv, ...": for messages; cut if there is no place for all. */
@@ -153,24 +144,24 @@ int cs_video_quality(const cs_video_options *options);
 /* The command that makes a video of raw frames, as above. sound: as long as the frames, or none.
  * extras: borrowed by the command; left out where the format has no place for them. file: the name
  * of the output. */
-void cs_video_command_encode(cs_video_command *command, const cs_video_format *format,
+void cs_video_command_encode(cs_arguments *command, const cs_video_format *format,
                              const cs_video_options *options, const cs_video_frames *frames,
                              const cs_sound_stream *sound, const cs_video_extras *extras,
                              const char *file);
 /* The commands that find the colours of an indexed film in its master file, as a file of
  * CS_VIDEO_SWATCHES x CS_VIDEO_SWATCHES pixels, and make the video with them. */
-void cs_video_command_swatches(cs_video_command *command, const cs_video_options *options,
+void cs_video_command_swatches(cs_arguments *command, const cs_video_options *options,
                                const char *master, const char *palette);
-void cs_video_command_index(cs_video_command *command, const cs_video_format *format,
+void cs_video_command_index(cs_arguments *command, const cs_video_format *format,
                             const cs_video_options *options, const char *master,
                             const char *palette, const char *file);
 /* The command that keeps the pixels of the encoder, the samples and the chapters without loss in a
  * master file, of which videos are made by the other command, with all extras but the chapters, or
  * by the two for indexed films. Not for other codecs of RGB. */
-void cs_video_command_master(cs_video_command *command, const cs_video_options *options,
+void cs_video_command_master(cs_arguments *command, const cs_video_options *options,
                              const cs_video_frames *frames, const cs_sound_stream *sound,
                              const char *chapters, const char *file);
-void cs_video_command_repeat(cs_video_command *command, const cs_video_format *format,
+void cs_video_command_repeat(cs_arguments *command, const cs_video_format *format,
                              const cs_video_options *options, bool has_sound, const char *master,
                              const cs_video_extras *extras, const char *file);
 

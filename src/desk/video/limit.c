@@ -35,14 +35,14 @@ typedef struct search {
 static celspan_status encode(search *s, double crf) {
   const cs_video *video = s->video;
   cs_video_options options = video->options;
-  cs_video_command command;
+  cs_arguments command;
   struct stat about;
   options.has_crf = true;
   options.crf = (int32_t)ceil(crf);
   options.crf_less = ceil(crf) - crf;
   cs_video_command_repeat(&command, video->format, &options, video->has_sound, s->master,
                           &video->extras, s->name);
-  CS_TRY(cs_encoder_run(video->context, video->path, command.arguments));
+  CS_TRY(cs_encoder_run(video->context, video->path, command.list));
   if (stat(s->name, &about) != 0)
     return cs_fail(video->context, CELSPAN_OUTPUT, "%s: cannot be read back: %s", video->path,
                    strerror(errno));

@@ -38,8 +38,7 @@ static celspan_status write_extras(cs_video *video, const cs_video_desc *desc) {
 }
 
 /* The files, and the command that writes the first of them. */
-static celspan_status prepare(cs_video *video, const cs_video_desc *desc,
-                              cs_video_command *command) {
+static celspan_status prepare(cs_video *video, const cs_video_desc *desc, cs_arguments *command) {
   const char *name;
   CS_TRY(open_file(video, &video->file, &name));
   CS_TRY(write_extras(video, desc));
@@ -128,10 +127,10 @@ static celspan_status open_module(cs_video *out, const cs_video_desc *desc) {
 
 static celspan_status open_encoder(cs_video *out, const cs_video_desc *desc,
                                    cs_sound_stream *samples) {
-  cs_video_command command;
+  cs_arguments command;
   celspan_status status = prepare(out, desc, &command);
   if (status == CELSPAN_OK)
-    status = cs_encoder_open(&out->encoder, out->context, out->path, command.arguments,
+    status = cs_encoder_open(&out->encoder, out->context, out->path, command.list,
                              out->slots.frame_size, samples);
   if (status != CELSPAN_OK)
     discard_files(out);
@@ -287,17 +286,17 @@ static celspan_status check_mark(const cs_video *video, const char *name) {
 
 /* Makes the video of its master with one palette. */
 static celspan_status index_colours(const cs_video *video, const char *master, const char *name) {
-  cs_video_command command;
+  cs_arguments command;
   cs_file *file = NULL;
   const char *palette;
   celspan_status status = open_file(video, &file, &palette);
   if (status == CELSPAN_OK) {
     cs_video_command_swatches(&command, &video->options, master, palette);
-    status = cs_encoder_run(video->context, video->path, command.arguments);
+    status = cs_encoder_run(video->context, video->path, command.list);
   }
   if (status == CELSPAN_OK) {
     cs_video_command_index(&command, video->format, &video->options, master, palette, name);
-    status = cs_encoder_run(video->context, video->path, command.arguments);
+    status = cs_encoder_run(video->context, video->path, command.list);
   }
   if (file)
     cs_file_discard(file, video->context);
