@@ -4,7 +4,13 @@
 ---   ---@noun circle: celspan.object        a value, and the class that it extends
 ---   ---@noun camera                        a table of options
 ---
---- from the rows of its fields, which are in src/lua.
+--- from the rows of its fields, which are in src/lua; in the place of a line
+---
+---   ---@written row: layout.row            celspan.row, which is this function of a module
+---
+--- what the module says of it; and a method with a line
+---
+---   ---@own celspan.placed                 returns its own type, of this class
 return [==[
 ---@meta celspan
 --- Annotations of celspan for editors with the Lua language server. Film coordinates start at the
@@ -45,73 +51,23 @@ function celspan.parameters(parameters) end
 ---@return string? message
 function celspan.read(path) end
 
---- Objects side by side by their bounds, from 0, 0 to the right. nil and false take no room.
----@param list { [integer]: celspan.shape, gap?: number, align?: "top"|"centre"|"bottom" }
----@return celspan.object
-function celspan.row(list) end
-
---- Objects below one another, from 0, 0 down.
----@param list { [integer]: celspan.shape, gap?: number, align?: "left"|"centre"|"right" }
----@return celspan.object
-function celspan.column(list) end
-
---- Objects in rows of `columns`, each in the middle of its cell, from 0, 0.
----@param list { [integer]: celspan.shape, columns: integer, gap?: number }
----@return celspan.object
-function celspan.grid(list) end
-
---- An object moved so that its bounds lie in a box, in the middle or at a side.
----@param object celspan.shape
----@param box number[] {x, y, w, h}
----@param horizontal? "left"|"centre"|"right" Default "centre"
----@param vertical? "top"|"centre"|"bottom" Default "centre"
----@return celspan.object
-function celspan.align(object, box, horizontal, vertical) end
-
---- Scales an object until its bounds just lie in a box, and aligns it there.
----@param object celspan.shape
----@param box number[] {x, y, w, h}
----@param horizontal? "left"|"centre"|"right" Default "centre"
----@param vertical? "top"|"centre"|"bottom" Default "centre"
----@param most? number The greatest factor; 1 only makes smaller. Default: none
----@return celspan.object
-function celspan.fit(object, box, horizontal, vertical, most) end
-
---- The object between two others. Outlines are matched by length and turning, parts by name and in
---- order; at 0 and 1 it is the one and the other.
----@param a celspan.object
----@param b celspan.object
----@param u number Limited to 0..1
----@param options? { pairs?: table[] } Two places {{x, y}, {x, y}} or two names of parts each
----@return celspan.object
-function celspan.morph(a, b, u, options) end
-
---- A line with a texture along it and a width that changes: x of the texture goes from 0 to 1 along
---- the line, y from -0.5 to 0.5 across it.
----@param options { d: string|celspan.path, width?: number, profile?: "round"|"even"|"ink"|"chisel"|fun(t: number): number, nib?: number, texture?: celspan.surface, from?: number, to?: number, within?: number, pieces?: integer }
----@return celspan.object
-function celspan.brush(options) end
-
---- A number as it is written in a language: "48,250", "48.250", "48 250".
----@param value number
----@param options? { language?: string, decimals?: integer, group?: boolean } Default "en", 0, true
----@return string
-function celspan.count(value, options) end
-
---- The number of a frame as hours, minutes, seconds and frames: "01:00:04:12".
----@param index integer From 0
----@param fps number
----@param options? { drop?: boolean } Of 29.97 and 59.94 frames a second: right by the clock
----@return string
-function celspan.timecode(index, fps, options) end
+---@written row: layout.row
+---@written column: layout.column
+---@written grid: layout.grid
+---@written align: layout.align
+---@written fit: layout.fit
+---@written morph: morph.between
+---@written brush: brush.line
+---@written count: count.written
+---@written timecode: count.timecode
 
 --- The pictures of a movie, or of numbered files, by their times.
 ---@class celspan.footage
----@field size number[] {w, h}, upright, with square pixels
----@field fps number
----@field frames integer
----@field seconds number
----@field sound boolean
+---@field size number[] {w, h} in pixels, upright, with square pixels
+---@field fps number Pictures a second; of a movie without a constant rate the mean
+---@field frames integer Pictures from `from` to `to`
+---@field seconds number How long these are shown, at the clip's speed
+---@field sound boolean Whether the file has one: `sound = "clip.mp4"` of a film plays it
 local footage = {}
 
 --- The picture that is shown at a time.
@@ -124,100 +80,21 @@ function footage:at(seconds) end
 ---@return celspan.texture
 function footage:frame(number) end
 
---- Opens a movie, or numbered files such as "plate.####.exr".
----@param options { file: string, from?: number, to?: number, speed?: number, loop?: boolean, fps?: number, alpha?: "straight"|"premultiplied", colour?: string, layer?: string }
----@return celspan.footage
-function celspan.footage(options) end
-
---- An object with its earlier moments, fainter, behind it.
----@param draw fun(k: integer): celspan.object? The object k steps ago; nil: nothing
----@param options? { count?: integer, fade?: number } Default 5, 0.7
----@return celspan.object
-function celspan.echo(draw, options) end
-
---- The part of every contour between two shares of its length.
----@param object celspan.shape
----@param from number
----@param to number
----@param options? { offset?: number, together?: boolean }
----@return celspan.object
-function celspan.trim(object, from, to, options) end
-
---- The object grown, or with a distance below 0 shrunk.
----@param object celspan.shape
----@param distance number
----@param options? { join?: "round"|"miter"|"bevel", limit?: number } Default "round", 4
----@return celspan.object
-function celspan.offset(object, distance, options) end
-
---- Arcs in place of the corners between straight sides.
----@param object celspan.shape
----@param radius number Of an arc in a right angle
----@return celspan.object
-function celspan.round_corners(object, radius) end
-
---- Points at a distance from every piece of a contour, on its two sides in turn.
----@param object celspan.shape
----@param options { size: number, ridges: integer, smooth?: boolean } ridges: of each piece
----@return celspan.object
-function celspan.zigzag(object, options) end
-
---- Bloats (above 0) or puckers (below 0): joints move towards their middle, control points away.
----@param object celspan.shape
----@param amount number -1..1
----@return celspan.object
-function celspan.pucker(object, amount) end
-
---- Points turn about a centre, the less the farther they are from it.
----@param object celspan.shape
----@param degrees number At the centre
----@param options? { centre?: celspan.point } Default: the middle of the bounds
----@return celspan.object
-function celspan.twist(object, degrees, options) end
-
---- Copies of an object, each moved, turned, scaled and faded further.
----@param object celspan.shape
----@param options { count: integer, offset?: number, translate?: celspan.point, rotate?: number, scale?: number|number[], centre?: celspan.point, opacity?: number[], order?: "above"|"below", each?: fun(copy: celspan.object, i: integer): celspan.object? }
----@return celspan.object
-function celspan.repeater(object, options) end
-
---- Objects as one shape, with the texture of the first unless another is given.
----@param objects celspan.shape[]
----@param options? { mode?: "merge"|"add"|"subtract"|"intersect"|"exclude", texture?: celspan.surface }
----@return celspan.object
-function celspan.merge(objects, options) end
-
---- Two objects by an operator of Porter and Duff.
----@param a celspan.shape The source, in front
----@param b celspan.shape The backdrop
----@param operator "over"|"in"|"out"|"atop"|"xor"
----@return celspan.object
-function celspan.composite(a, b, operator) end
-
---- An object of which the alpha decides by chance whether a pixel of the film is opaque or clear.
----@param object celspan.shape
----@param seed? integer Another one chooses other pixels (0)
----@return celspan.object
-function celspan.dissolve(object, seed) end
-
---- A star, or without `inner` a regular polygon.
----@param options { centre?: celspan.point, points?: integer, outer: number, inner?: number, rotate?: number, outer_round?: number, inner_round?: number, texture?: celspan.surface }
----@return celspan.object
-function celspan.star(options) end
-
---- The bounds of an object with a margin, as a box {x, y, w, h}.
----@param object celspan.shape
----@param margin? number|number[] On all sides, or {across, down}
----@return number[] box
-function celspan.around(object, margin) end
-
---- A text whose letters, words or lines a function changes: it returns an object, or nil for
---- nothing. With `along`, path data or a path, the text runs along it; a letter then has `degrees`.
----@param text celspan.text.fields
----@param change? fun(letter: celspan.letter, i: integer, n: integer): celspan.object?
----@param options? { by?: "letter"|"word"|"line", along?: string|celspan.contour[]|celspan.shape, start?: number }
----@return celspan.object
-function celspan.letters(text, change, options) end
+---@written footage: footage.open
+---@written echo: echo.trail
+---@written trim: operators.trim
+---@written offset: operators.offset
+---@written round_corners: operators.round_corners
+---@written zigzag: operators.zigzag
+---@written pucker: operators.pucker
+---@written twist: operators.twist
+---@written repeater: repeater.copies
+---@written merge: merge.merged
+---@written composite: composite.of
+---@written dissolve: dissolve.by_chance
+---@written star: star.outline
+---@written around: layout.around
+---@written letters: layout.letters
 
 --- A value that can have a name. Transforms, fades and `with` keep the name.
 ---@class celspan.nameable
@@ -227,10 +104,8 @@ function celspan.letters(text, change, options) end
 local nameable = {}
 
 --- The same value with a name, which messages use: 1 to 255 bytes without control characters.
----@generic T: celspan.nameable
----@param self T
+---@own celspan.nameable
 ---@param name string
----@return T
 function nameable:named(name) end
 
 ---@noun paint: celspan.nameable
@@ -294,90 +169,68 @@ function texture:with(changes) end
 local placed = {}
 
 --- Moves it.
----@generic T: celspan.placed
----@param self T
+---@own celspan.placed
 ---@param dx number
 ---@param dy number
----@return T
 function placed:translate(dx, dy) end
 
 --- Enlarges it, about the origin or a fixed centre.
----@generic T: celspan.placed
----@param self T
+---@own celspan.placed
 ---@param sx number
 ---@param sy? number Default sx
 ---@param cx? number
 ---@param cy? number
----@return T
 function placed:scale(sx, sy, cx, cy) end
 
 --- Turns clockwise on screen, about the origin or a centre.
----@generic T: celspan.placed
----@param self T
+---@own celspan.placed
 ---@param degrees number
 ---@param cx? number
 ---@param cy? number
----@return T
 function placed:rotate(degrees, cx, cy) end
 
 --- Slants it, about the origin or a centre.
----@generic T: celspan.placed
----@param self T
+---@own celspan.placed
 ---@param degrees_x number
 ---@param degrees_y number
 ---@param cx? number
 ---@param cy? number
----@return T
 function placed:skew(degrees_x, degrees_y, cx, cy) end
 
 --- A 3x3 matrix row by row, for column vectors.
----@generic T: celspan.placed
----@param self T
+---@own celspan.placed
 ---@param matrix number[] Nine numbers
----@return T
 function placed:transform(matrix) end
 
 --- The perspective that maps the first four points to the second.
----@generic T: celspan.placed
----@param self T
+---@own celspan.placed
 ---@param from celspan.point[]
 ---@param to celspan.point[]
----@return T
 function placed:quad(from, to) end
 
 --- The paint mixed with clear: 1 leaves it unchanged, 0 makes it invisible.
----@generic T: celspan.placed
----@param self T
+---@own celspan.placed
 ---@param k number 0..1
----@return T
 function placed:fade(k) end
 
 --- With a blend mode: how it is combined with its backdrop. `mode` reads it.
----@generic T: celspan.placed
----@param self T
+---@own celspan.placed
 ---@param mode celspan.mode
----@return T
 function placed:blend(mode) end
 
 --- With a soft shadow behind it, or inside.
----@generic T: celspan.placed
----@param self T
+---@own celspan.placed
 ---@param options? celspan.shadow.options
----@return T
 function placed:shadow(options) end
 
 --- With its shape, blurred, added as light behind it.
----@generic T: celspan.placed
----@param self T
+---@own celspan.placed
 ---@param options celspan.glow.options
----@return T
 function placed:glow(options) end
 
 --- With its shape, grown by a width, behind it.
----@generic T: celspan.placed
----@param self T
+---@own celspan.placed
 ---@param options celspan.outline.options
----@return T
 function placed:outline(options) end
 
 --- The smallest axis-aligned rectangle around it; returns nothing if there is nothing to paint.
@@ -391,10 +244,8 @@ function placed:bounds() end
 function placed:contains(x, y) end
 
 --- A copy with changes; transforms and fades are kept.
----@generic T: celspan.placed
----@param self T
+---@own celspan.placed
 ---@param changes table
----@return T
 function placed:with(changes) end
 
 --- A primitive or a boolean tree of them.

@@ -106,6 +106,14 @@ local function expand(noun, parent, has_methods, has_constructor)
   return table.concat(lines, "\n")
 end
 
+--- The annotations of the function celspan.`name`, which are above its text in a module.
+local function from_module(name, module, own)
+  local text = core.source(module)
+  local at, _, arguments = text:find(("\nfunction %s%%.%s(%%b())"):format(module, own))
+  local above = text:sub(1, at):match ".*\n\n(.*)$"
+  return ("%sfunction celspan.%s%s end\n"):format(above, name, arguments)
+end
+
 --- The text of celspan.d.lua.
 function manual.annotations()
   local celspan, nouns, by_line = require "celspan", core.nouns(), {}
@@ -113,6 +121,9 @@ function manual.annotations()
     by_line[noun.table and noun.table:gsub("^celspan%.", "") or noun.name] = noun
   end
   local text = require "celspan.annotations"
+  text = text:gsub("%-%-%-@written ([%w_]+): ([%w_]+)%.([%w_]+)", from_module):gsub("\n\n\n", "\n\n")
+  text = text:gsub("%-%-%-@own (%S+)\n(.-)function ",
+    "---@generic T: %1\n---@param self T\n%2---@return T\nfunction ")
   return (text:gsub("%-%-%-@noun ([%w_.]+):? ?([%w_.]*)", function(name, parent)
     local noun = assert(by_line[name], name)
     local has_methods = text:find("function " .. name .. ":", 1, true)

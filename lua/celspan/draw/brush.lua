@@ -100,7 +100,10 @@ local function outline_of(profile, from, to)
   return contour
 end
 
---- celspan.brush(options)
+--- A line with a texture along it and a width that changes: x of the texture goes from 0 to 1 along
+--- the line, y from -0.5 to 0.5 across it.
+---@param options { d: string|celspan.path, width?: number, profile?: "round"|"even"|"ink"|"chisel"|fun(t: number): number, nib?: number, texture?: celspan.surface, from?: number, to?: number, within?: number, pieces?: integer }
+---@return celspan.object
 function brush.line(options)
   fields.check("brush", options, known)
   local width, from, to = options.width or 1, options.from or 0, options.to or 1

@@ -62,7 +62,7 @@ local function refuse(operator)
     .. "got %s%s"):format(got, advice and "; write " .. advice or ""))
 end
 
---- Combines two objects by an operator of Porter and Duff.
+--- Two objects by an operator of Porter and Duff.
 ---@param a celspan.shape The source, in front
 ---@param b celspan.shape The backdrop
 ---@param operator "over"|"in"|"out"|"atop"|"xor"

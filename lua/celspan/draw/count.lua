@@ -55,7 +55,7 @@ local function grouped(digits, style)
   return table.concat(groups, style[1])
 end
 
---- The number, rounded to `decimals`, with the separators of the language.
+--- A number as it is written in a language: "48,250", "48.250", "48 250".
 ---@param value number
 ---@param options? { language?: string, decimals?: integer, group?: boolean } Default "en", 0, true
 ---@return string
@@ -82,10 +82,10 @@ local function dropped(index, rate)
   return index + 9 * skipped * (index // ten) + skipped * (math.max(0, rest - skipped) // minute)
 end
 
---- Hours, minutes, seconds and frames: "01:00:04:12". With `drop` a semicolon is before the frames.
----@param index integer The number of the frame, from 0
+--- The number of a frame as hours, minutes, seconds and frames: "01:00:04:12".
+---@param index integer From 0
 ---@param fps number
----@param options? { drop?: boolean } Of 29.97 and 59.94 frames a second
+---@param options? { drop?: boolean } Of 29.97 and 59.94 frames a second: right by the clock
 ---@return string
 function count.timecode(index, fps, options)
   options = options or {}

@@ -11,7 +11,7 @@ local dissolve = {}
 local MARGIN = 1   -- units around the bounds, for shapes that are drawn by their pixels
 local LEAST = 2e-7 -- the number of no square is 0, so an opaque object has no holes
 
---- An object of which the alpha decides by chance whether a pixel is opaque or clear.
+--- An object of which the alpha decides by chance whether a pixel of the film is opaque or clear.
 ---@param object celspan.shape
 ---@param seed? integer Another one chooses other pixels (0)
 ---@return celspan.object

@@ -14,9 +14,9 @@ local MOST = 1000
 
 local function refuse(text, ...) core.refuse("echo: " .. text:format(...)) end
 
---- An object with earlier ones behind it.
+--- An object with its earlier moments, fainter, behind it.
 ---@param draw fun(k: integer): celspan.object? The object k steps ago; nil: nothing
----@param options? { count?: integer, fade?: number } count: how many, with the one of now (5); fade: the share of its paint that each keeps of the one before (0.7)
+---@param options? { count?: integer, fade?: number } Default 5, 0.7
 ---@return celspan.object
 function echo.trail(draw, options)
   options = options or {}

@@ -76,7 +76,7 @@ end
 
 local known = { "list", gap = "number", align = "string" }
 
---- Objects side by side, from 0, 0 to the right.
+--- Objects side by side by their bounds, from 0, 0 to the right. nil and false take no room.
 ---@param list { [integer]: celspan.shape, gap?: number, align?: "top"|"centre"|"bottom" }
 ---@return celspan.object
 function layout.row(list)
@@ -107,8 +107,7 @@ function layout.column(list)
   return celspan.union(objects)
 end
 
---- Objects in rows of `columns`, each in the middle of its cell, from 0, 0. A column is as wide as
---- its widest object, a row as high as its highest.
+--- Objects in rows of `columns`, each in the middle of its cell, from 0, 0.
 ---@param list { [integer]: celspan.shape, columns: integer, gap?: number }
 ---@return celspan.object
 function layout.grid(list)
@@ -131,8 +130,7 @@ function layout.grid(list)
   return celspan.union(objects)
 end
 
---- Moves an object so that its bounds lie in a box: at its left, right, top or bottom side, or in
---- its middle.
+--- An object moved so that its bounds lie in a box, in the middle or at a side.
 ---@param object celspan.shape
 ---@param box number[] {x, y, w, h}
 ---@param horizontal? "left"|"centre"|"right" Default "centre"
@@ -145,8 +143,7 @@ function layout.align(object, box, horizontal, vertical)
   return item and placed(item, box, h, v) or object
 end
 
---- Scales an object until its bounds just lie in a box, and aligns it there. Both axes are scaled
---- alike.
+--- Scales an object until its bounds just lie in a box, and aligns it there.
 ---@param object celspan.shape
 ---@param box number[] {x, y, w, h}
 ---@param horizontal? "left"|"centre"|"right" Default "centre"
@@ -172,10 +169,10 @@ function layout.fit(object, box, horizontal, vertical, most)
   return placed(read_items("fit", { object:scale(factor) })[1], box, h, v)
 end
 
---- The bounds of an object with a margin, as a box: for a rectangle behind a title.
+--- The bounds of an object with a margin, as a box {x, y, w, h}.
 ---@param object celspan.shape
----@param margin? number On all sides, or { across, down }; 0
----@return number[] box {x, y, w, h}; 0, 0, 0, 0 if there is nothing to paint
+---@param margin? number|number[] On all sides, or {across, down}
+---@return number[] box
 function layout.around(object, margin)
   local item = read_items("around", { object })[1] or { x = 0, y = 0, w = 0, h = 0 }
   local pair = margin
@@ -224,10 +221,9 @@ end
 
 local function as_it_is(letter) return letter.object end
 
---- A text whose letters, words or lines a function changes. The function gets each of them, its
---- number from 1 on, and how many there are; it returns an object, or nil for nothing. It does not
---- get spaces. With `along`, the text follows a path.
----@param text celspan.text.fields As for celspan.glyphs
+--- A text whose letters, words or lines a function changes: it returns an object, or nil for
+--- nothing. With `along`, path data or a path, the text runs along it; a letter then has `degrees`.
+---@param text celspan.text.fields
 ---@param change? fun(letter: celspan.letter, i: integer, n: integer): celspan.object?
 ---@param options? { by?: "letter"|"word"|"line", along?: string|celspan.contour[]|celspan.shape, start?: number }
 ---@return celspan.object

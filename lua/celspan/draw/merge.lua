@@ -57,7 +57,7 @@ local function read(objects, options)
   return mode, nodes
 end
 
---- One shape of the outlines of objects, with the texture of the first.
+--- Objects as one shape, with the texture of the first unless another is given.
 ---@param objects celspan.shape[]
 ---@param options? { mode?: "merge"|"add"|"subtract"|"intersect"|"exclude", texture?: celspan.surface }
 ---@return celspan.object

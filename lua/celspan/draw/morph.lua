@@ -244,11 +244,12 @@ local function plan_of(a, b, list)
   return plans[key]
 end
 
---- The object between two others; at 0 it is the first, and at 1 the second.
----@param a celspan.shape
----@param b celspan.shape
----@param u number
----@param options? { pairs?: table[] }
+--- The object between two others. Outlines are matched by length and turning, parts by name and in
+--- order; at 0 and 1 it is the one and the other.
+---@param a celspan.object
+---@param b celspan.object
+---@param u number Limited to 0..1
+---@param options? { pairs?: table[] } Two places {{x, y}, {x, y}} or two names of parts each
 ---@return celspan.object
 function morph.between(a, b, u, options)
   fields.check("morph", options or {}, { pairs = "table" })

@@ -11,7 +11,7 @@ end
 
 local trims = { offset = "number", together = "boolean" }
 
---- The part of each contour between two shares of its length.
+--- The part of every contour between two shares of its length.
 ---@param object celspan.shape
 ---@param from number
 ---@param to number
@@ -28,7 +28,7 @@ end
 
 --- Arcs in place of the corners between straight sides.
 ---@param object celspan.shape
----@param radius number
+---@param radius number Of an arc in a right angle
 ---@return celspan.object
 function operators.round_corners(object, radius)
   fields.object("round_corners", object)
@@ -39,9 +39,9 @@ end
 local zigzags = { size = "number", ridges = "number", smooth = "boolean" }
 local RIDGES_MOST = 10000
 
---- Points on the two sides of every piece in turn.
+--- Points at a distance from every piece of a contour, on its two sides in turn.
 ---@param object celspan.shape
----@param options { size: number, ridges: integer, smooth?: boolean }
+---@param options { size: number, ridges: integer, smooth?: boolean } ridges: of each piece
 ---@return celspan.object
 function operators.zigzag(object, options)
   fields.object("zigzag", object)
@@ -55,9 +55,9 @@ function operators.zigzag(object, options)
   return core.zigzag(object, options.size, ridges, options.smooth or false)
 end
 
---- Joints move towards the middle of their contour, control points away from it; or the other way.
+--- Bloats (above 0) or puckers (below 0): joints move towards their middle, control points away.
 ---@param object celspan.shape
----@param amount number
+---@param amount number -1..1
 ---@return celspan.object
 function operators.pucker(object, amount)
   fields.object("pucker", object)
@@ -67,8 +67,8 @@ end
 
 --- Points turn about a centre, the less the farther they are from it.
 ---@param object celspan.shape
----@param degrees number
----@param options? { centre?: celspan.point }
+---@param degrees number At the centre
+---@param options? { centre?: celspan.point } Default: the middle of the bounds
 ---@return celspan.object
 function operators.twist(object, degrees, options)
   fields.object("twist", object)
@@ -85,10 +85,10 @@ end
 local joins = { round = true, miter = true, bevel = true }
 local LIMIT = 4 -- of miters, as of strokes
 
---- The object with its outlines moved outwards (above 0) or inwards.
+--- The object grown, or with a distance below 0 shrunk.
 ---@param object celspan.shape
 ---@param distance number
----@param options? { join?: "round"|"miter"|"bevel", limit?: number }
+---@param options? { join?: "round"|"miter"|"bevel", limit?: number } Default "round", 4
 ---@return celspan.object
 function operators.offset(object, distance, options)
   fields.object("offset", object)

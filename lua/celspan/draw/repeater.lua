@@ -92,7 +92,7 @@ local function copy_of(object, matrix, opacity, each, i)
   return copy
 end
 
---- Copies of an object.
+--- Copies of an object, each moved, turned, scaled and faded further.
 ---@param object celspan.shape
 ---@param options { count: integer, offset?: number, translate?: celspan.point, rotate?: number, scale?: number|number[], centre?: celspan.point, opacity?: number[], order?: "above"|"below", each?: fun(copy: celspan.object, i: integer): celspan.object? }
 ---@return celspan.object

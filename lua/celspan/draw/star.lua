@@ -74,7 +74,7 @@ local function curved(s, texture)
   return celspan.path { contours = { contour }, texture = texture }
 end
 
---- A star, or a regular polygon.
+--- A star, or without `inner` a regular polygon.
 ---@param options { centre?: celspan.point, points?: integer, outer: number, inner?: number, rotate?: number, outer_round?: number, inner_round?: number, texture?: celspan.surface }
 ---@return celspan.object
 function star.outline(options)

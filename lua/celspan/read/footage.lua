@@ -22,12 +22,7 @@ local function refuse(text, ...) core.refuse("footage: " .. text:format(...)) en
 --- Refuses because files are not there, which is no fault of the script.
 local function miss(text, ...) core.miss("footage", text:format(...)) end
 
----@class celspan.footage
----@field size number[] {w, h} in pixels, upright, with square pixels
----@field fps number Pictures a second; of a movie without a constant rate the mean
----@field frames integer Pictures from `from` to `to`
----@field seconds number How long these are shown, at the clip's speed
----@field sound boolean Whether the file has one: `sound = "clip.mp4"` of a film plays it
+--- The methods of a clip, celspan.footage; celspan.annotations lists its fields.
 local Clip = {}
 
 --- What is hidden from scripts: source, first, last, from, length (seconds of the file), speed,
@@ -246,7 +241,7 @@ local function check_words(given)
   if not given.file then refuse "field 'file' must be a string, got nil" end
 end
 
---- Opens a movie, or numbered files.
+--- Opens a movie, or numbered files such as "plate.####.exr".
 ---@param options { file: string, from?: number, to?: number, speed?: number, loop?: boolean, fps?: number, alpha?: "straight"|"premultiplied", colour?: string, layer?: string }
 ---@return celspan.footage
 function footage.open(options)
@@ -267,8 +262,6 @@ end
 
 --- The picture that is shown at a time; before the first one the first, after the end the last, or
 --- from the start again with `loop`.
----@param seconds number
----@return celspan.texture
 function Clip:at(seconds)
   fields.check_at("footage", metatable, self, seconds, "seconds")
   local data = data_of[self]
@@ -279,8 +272,6 @@ function Clip:at(seconds)
 end
 
 --- The picture with this number, from 1; beyond the ends as at those times.
----@param number integer
----@return celspan.texture
 function Clip:frame(number)
   fields.self("footage", metatable, self, "frame")
   if not fields.is_finite(number) or number ~= math.floor(number) then

@@ -25,7 +25,7 @@ void cs_embedded_open(lua_State *L);
 void cs_core_open(lua_State *L);
 /* Whether there is a module celspan.NAME for scripts. */
 bool cs_embedded_has(const char *name);
-/* (name) -> the source of a module for scripts, for celspan.manual */
+/* (name) -> the source of a module, for celspan.manual */
 int cs_embedded_source(lua_State *L);
 
 /* Lets `require` of a host also find modules beside the file that requires them, after the usual

@@ -70,9 +70,9 @@ bool cs_embedded_has(const char *name) {
 
 int cs_embedded_source(lua_State *L) {
   const char *name = luaL_checkstring(L, 1);
-  if (!cs_embedded_has(name))
-    return luaL_error(L, "there is no module celspan.%s for scripts", name);
   const cs_built_in *file = cs_built_in_find(cs_module_texts, lua_pushfstring(L, "%s.lua", name));
+  if (!file)
+    return luaL_error(L, "there is no module celspan.%s", name);
   lua_pushlstring(L, file->bytes, file->size);
   return 1;
 }
