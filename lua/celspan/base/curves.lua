@@ -54,10 +54,7 @@ end
 function curves.read(noun, outline, field)
   field = field or "along"
   local line = line_of(outline)
-  if not line then
-    core.refuse(("%s: %s must be path data, contours or a path, got %s"):format(noun, field,
-      fields.kind(outline)))
-  end
+  fields.expect_kind(line, outline, "%s: %s must be path data, contours or a path", noun, field)
   local curve, message = curves.of(noun, line)
   if not curve then core.refuse(("%s: %s: %s"):format(noun, field, message)) end
   if curve.length == 0 then core.refuse(("%s: %s: the path has no length"):format(noun, field)) end

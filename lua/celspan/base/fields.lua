@@ -82,10 +82,20 @@ local function refuse_name(noun, name, names)
   core.refuse(("%s has no '%s'%s"):format(noun, name, fields.choice(name, names)))
 end
 
+--- Raises an error unless `holds`: a sentence, and the value that does not go with it. text: the
+--- format of the sentence, for the arguments after it.
+function fields.expect(holds, value, text, ...)
+  if not holds then core.refuse(text:format(...) .. ", got " .. fields.shown(value)) end
+end
+
+--- The same, with the kind of the value alone.
+function fields.expect_kind(holds, value, text, ...)
+  if not holds then core.refuse(text:format(...) .. ", got " .. fields.kind(value)) end
+end
+
 --- Raises an error unless `holds`: `value` must be as `rule` says. what: "echo: field 'fade'".
 function fields.must(holds, what, rule, value)
-  if holds then return end
-  core.refuse(("%s must be %s, got %s"):format(what, rule, fields.shown(value)))
+  fields.expect(holds, value, "%s must be %s", what, rule)
 end
 
 --- Raises an error unless `value` is a whole number from `least` to `most`, or with nil of at least
@@ -100,8 +110,7 @@ end
 
 --- Raises an error unless what a function takes has the wanted type(). what: a description of it.
 function fields.takes(name, wanted, what, value)
-  if type(value) == wanted then return end
-  core.refuse(("%s takes %s, got %s"):format(name, what, fields.kind(value)))
+  fields.expect_kind(type(value) == wanted, value, "%s takes %s", name, what)
 end
 
 --- The result of a function; nil and the message, if it raises a table with one.
@@ -114,29 +123,22 @@ end
 
 --- Raises an error unless the first argument of a function is an object.
 function fields.object(noun, object)
-  if not fields.is_object(object) then
-    core.refuse(("%s: the first argument must be an object, got %s"):format(noun,
-      fields.kind(object)))
-  end
+  fields.expect_kind(fields.is_object(object), object, "%s: the first argument must be an object",
+    noun)
 end
 
 --- Raises an error unless `self` is a value of this class (its metatable). Like all errors of the
 --- library, it is at the line of the nearest caller outside the library.
 function fields.self(noun, class, self, method)
-  if getmetatable(self) ~= class then
-    core.refuse(("%s: %s: call it as a method, value:%s(...), got %s"):format(noun, method, method,
-      fields.kind(self)))
-  end
+  fields.expect_kind(getmetatable(self) == class, self,
+    "%s: %s: call it as a method, value:%s(...)", noun, method, method)
 end
 
 --- Raises an error unless `self` is a value of this class, and `value`, the argument of its method
 --- `at`, is a finite number. what: "a time".
 function fields.check_at(noun, class, self, value, what)
   fields.self(noun, class, self, "at")
-  if not fields.is_finite(value) then
-    core.refuse(("%s: at takes %s, a finite number, got %s"):format(noun, what,
-      fields.shown(value)))
-  end
+  fields.expect(fields.is_finite(value), value, "%s: at takes %s, a finite number", noun, what)
 end
 
 --- The __index of a class whose values have `methods`, and also fields. optional: the fields that
@@ -188,16 +190,12 @@ end
 --- Raises an error unless `value` is a list of `count` finite numbers. subject: its name in the
 --- message, with the number's index: "film[%d]"; shape: a description of valid values.
 function fields.numbers(noun, subject, value, count, shape)
-  if type(value) ~= "table" then
-    core.refuse(("%s: %s must be %s, got %s"):format(noun, subject:match "^[^%[:]*", shape,
-      fields.kind(value)))
-  end
+  fields.expect_kind(type(value) == "table", value, "%s: %s must be %s", noun,
+    subject:match "^[^%[:]*", shape)
   for i = 1, count do
     local number = value[i]
-    if not fields.is_finite(number) then
-      core.refuse(("%s: %s must be a %snumber, got %s"):format(noun, subject:format(i),
-        type(number) == "number" and "finite " or "", fields.shown(number)))
-    end
+    fields.expect(fields.is_finite(number), number, "%s: %s must be a %snumber", noun,
+      subject:format(i), type(number) == "number" and "finite " or "")
   end
 end
 
@@ -215,9 +213,7 @@ end
 --- Checks the fields of a table. known: name -> the required type(), or "any". known[1] must be set
 --- if the table may contain a list.
 function fields.check(noun, given, known)
-  if type(given) ~= "table" then
-    core.refuse(("%s: takes a table, got %s"):format(noun, fields.kind(given)))
-  end
+  fields.expect_kind(type(given) == "table", given, "%s: takes a table", noun)
   if is_right(given, known) then return end
   local names = {}
   for name in pairs(known) do
@@ -235,14 +231,10 @@ function fields.check(noun, given, known)
   for _, name in ipairs(names) do
     local value = given[name]
     local wanted = known[name]
-    if value ~= nil and wanted ~= "any" and type(value) ~= wanted then
-      core.refuse(("%s: field '%s' must be a %s, got %s"):format(noun, name, wanted,
-        fields.kind(value)))
-    end
-    if wanted == "number" and value ~= nil and not fields.is_finite(value) then
-      core.refuse(("%s: field '%s' must be a finite number, got %s"):format(noun, name,
-        fields.shown(value)))
-    end
+    fields.expect_kind(value == nil or wanted == "any" or type(value) == wanted, value,
+      "%s: field '%s' must be a %s", noun, name, wanted)
+    fields.expect(wanted ~= "number" or value == nil or fields.is_finite(value), value,
+      "%s: field '%s' must be a finite number", noun, name)
   end
 end
 

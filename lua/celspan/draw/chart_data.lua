@@ -30,9 +30,8 @@ end
 
 --- The value of a row in a field; without a field, the row itself.
 local function value_of(row, i, field)
-  if field and type(row) ~= "table" then
-    refuse("data[%d] must be a row with the field '%s', got %s", i, field, fields.kind(row))
-  end
+  fields.expect_kind(not field or type(row) == "table", row,
+    "chart: data[%d] must be a row with the field '%s'", i, field)
   local value = row
   if field then value = row[field] end
   if value == nil then return false end
@@ -50,9 +49,7 @@ local function fields_of(y)
   if type(y) == "string" then return { y } end
   local names = {}
   for i = 1, type(y) == "table" and rawlen(y) or 0 do
-    if type(y[i]) ~= "string" then
-      refuse("y[%d] must be the name of a field, got %s", i, fields.kind(y[i]))
-    end
+    fields.expect_kind(type(y[i]) == "string", y[i], "chart: y[%d] must be the name of a field", i)
     names[i] = y[i]
   end
   if #names == 0 then
@@ -82,9 +79,8 @@ local function read_names(rows, x)
   local names, xs, last = {}, {}, -math.huge
   for i = 1, rawlen(rows) do
     local value = i
-    if x and type(rows[i]) ~= "table" then
-      refuse("data[%d] must be a row with the field '%s', got %s", i, x, fields.kind(rows[i]))
-    end
+    fields.expect_kind(not x or type(rows[i]) == "table", rows[i],
+      "chart: data[%d] must be a row with the field '%s'", i, x)
     if x then value = rows[i][x] end
     names[i] = value
     if type(value) == "string" then

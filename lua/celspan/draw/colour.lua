@@ -75,17 +75,15 @@ local function read(noun, value)
     paint = made
   end
   local good, pigment, beta = pcall(function() return paint.pigment, paint.beta end)
-  if not good or type(pigment) ~= "table" then
-    refuse("%s takes colours, such as \"#f26419\", got %s", noun, fields.kind(value))
-  end
+  fields.expect_kind(good and type(pigment) == "table", value,
+    "colour: %s takes colours, such as \"#f26419\"", noun)
   local lightness, a, b = to_oklab(pigment[1], pigment[2], pigment[3])
   return lightness, a, b, beta
 end
 
 local function check(noun, name, value)
-  if not fields.is_finite(value) then
-    refuse("%s: its %s must be a finite number, got %s", noun, name, fields.shown(value))
-  end
+  fields.expect(fields.is_finite(value), value,
+    "colour: %s: its %s must be a finite number", noun, name)
   return value
 end
 
@@ -167,10 +165,8 @@ function colour.palette(sets)
   for name in next, sets do list[#list + 1] = tostring(name) end
   table.sort(list)
   for _, name in ipairs(list) do
-    if type(sets[name]) ~= "table" then
-      refuse("palette '%s' must be a table of colours by name, got %s", name,
-        fields.kind(sets[name]))
-    end
+    fields.expect_kind(type(sets[name]) == "table", sets[name],
+      "colour: palette '%s' must be a table of colours by name", name)
     names = names or sets[name]
     check_names(name, sets[name], names)
   end

@@ -69,10 +69,8 @@ end
 ---@return celspan.object
 function composite.of(a, b, operator)
   for i, object in pairs { a or false, b or false } do
-    if not fields.is_object(object) then
-      core.refuse(("composite: argument %d must be an object, got %s"):format(i,
-        fields.kind(object or nil)))
-    end
+    fields.expect_kind(fields.is_object(object), object or nil,
+      "composite: argument %d must be an object", i)
   end
   local combine = operators[operator]
   if not combine then refuse(operator) end

@@ -30,8 +30,6 @@ local known = {
 
 local function refuse(text, ...) core.refuse("count: " .. text:format(...)) end
 
-local function refuse_code(text, ...) core.refuse("timecode: " .. text:format(...)) end
-
 --- The style of a language. "pt-BR" has the style of "pt", unless it has its own.
 local function style_of(language)
   local style = known[language] or known[language:match "^%a+" or ""]
@@ -90,18 +88,13 @@ end
 function count.timecode(index, fps, options)
   options = options or {}
   fields.check("timecode", options, { drop = "boolean" })
-  if not fields.is_finite(index) or index < 0 or index ~= math.floor(index) or index > 2 ^ 53 then
-    refuse_code("the first argument, a frame, must be a whole number from 0 on, got %s",
-      fields.shown(index))
-  end
+  fields.expect(fields.is_finite(index) and index >= 0 and index <= 2 ^ 53 and index % 1 == 0, index,
+    "timecode: the first argument, a frame, must be a whole number from 0 on")
   local rate = fields.is_finite(fps) and math.floor(fps + 0.5) or 0
-  if rate < 1 or rate > 1000 then
-    refuse_code("the second argument must be frames per second, 1 to 1000, got %s",
-      fields.shown(fps))
-  end
-  if options.drop and rate ~= 30 and rate ~= 60 then
-    refuse_code("drop is for 29.97 and 59.94 frames a second, got %s", fields.shown(fps))
-  end
+  fields.expect(rate >= 1 and rate <= 1000, fps,
+    "timecode: the second argument must be frames per second, 1 to 1000")
+  fields.expect(not options.drop or rate == 30 or rate == 60, fps,
+    "timecode: drop is for 29.97 and 59.94 frames a second")
   local number = options.drop and dropped(index // 1, rate) or index // 1
   local seconds = number // rate
   return ("%02d:%02d:%02d%s%02d"):format(seconds // 3600, seconds // 60 % 60, seconds % 60,

@@ -20,9 +20,7 @@ local function refuse(text, ...) core.refuse("echo: " .. text:format(...)) end
 ---@return celspan.object
 function echo.trail(draw, options)
   options = options or {}
-  if type(draw) ~= "function" then
-    refuse("the first argument must be a function, got %s", fields.kind(draw))
-  end
+  fields.expect_kind(type(draw) == "function", draw, "echo: the first argument must be a function")
   fields.check("echo", options, { count = "number", fade = "number" })
   local count, fade, objects = options.count or 5, options.fade or 0.7, {}
   fields.must(fade >= 0 and fade <= 1, "echo: field 'fade'", "from 0 to 1", fade)

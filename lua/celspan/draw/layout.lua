@@ -44,9 +44,7 @@ local function read_items(noun, list)
     local object = list[i]
     if object then
       local good, x, y, w, h = pcall(function() return object:bounds() end)
-      if not good then
-        refuse("%s: item %d must be an object, got %s", noun, i, fields.kind(object))
-      end
+      fields.expect_kind(good, object, "%s: item %d must be an object", noun, i)
       if x then items[#items + 1] = { object = object, x = x, y = y, w = w, h = h } end
     end
   end
@@ -68,9 +66,8 @@ local function shares_of(noun, horizontal, vertical)
 end
 
 local function check_gap(noun, gap)
-  if gap ~= nil and not fields.is_finite(gap) then
-    refuse("%s: field 'gap' must be a finite number, got %s", noun, fields.shown(gap))
-  end
+  fields.expect(gap == nil or fields.is_finite(gap), gap,
+    "%s: field 'gap' must be a finite number", noun)
   return gap or 0
 end
 
@@ -156,10 +153,8 @@ function layout.fit(object, box, horizontal, vertical, most)
     refuse("fit: the box must have a width and a height above 0, got %s by %s",
       fields.shown(box[3]), fields.shown(box[4]))
   end
-  if most ~= nil and not (fields.is_finite(most) and most > 0) then
-    refuse("fit: the fifth argument, the greatest factor, must be a number above 0, got %s",
-      fields.shown(most))
-  end
+  fields.expect(most == nil or fields.is_finite(most) and most > 0, most,
+    "fit: the fifth argument, the greatest factor, must be a number above 0")
   local h, v = shares_of("fit", horizontal, vertical)
   local item = read_items("fit", { object })[1]
   if not item then return object end
@@ -234,9 +229,8 @@ function layout.letters(text, change, options)
   if by ~= "letter" and by ~= "word" and by ~= "line" then
     refuse("letters: field 'by' must be \"letter\", \"word\" or \"line\", got %q", by)
   end
-  if change ~= nil and type(change) ~= "function" then
-    refuse("letters: the second argument must be a function, got %s", fields.kind(change))
-  end
+  fields.expect_kind(change == nil or type(change) == "function", change,
+    "letters: the second argument must be a function")
   local groups, shown, objects = groups_of(celspan.glyphs(text), by), {}, {}
   local curve = options.along and curves.read("letters", options.along)
   for _, group in ipairs(groups) do

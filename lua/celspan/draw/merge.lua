@@ -44,14 +44,12 @@ local function read(objects, options)
     refuse("field 'mode' must be \"merge\", \"add\", \"subtract\", \"intersect\" or \"exclude\", "
       .. "got %q", mode)
   end
-  if type(objects) ~= "table" then
-    refuse("the first argument must be a list of objects, got %s", fields.kind(objects))
-  end
+  fields.expect_kind(type(objects) == "table", objects,
+    "merge: the first argument must be a list of objects")
   local nodes = {}
   for i = 1, rawlen(objects) do
-    if not fields.is_object(objects[i]) then
-      refuse("item %d must be an object, got %s", i, fields.kind(objects[i]))
-    end
+    fields.expect_kind(fields.is_object(objects[i]), objects[i],
+      "merge: item %d must be an object", i)
     nodes[i] = collect(core.anatomy(objects[i], true), {})
   end
   return mode, nodes

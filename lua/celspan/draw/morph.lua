@@ -253,14 +253,11 @@ end
 ---@return celspan.object
 function morph.between(a, b, u, options)
   fields.check("morph", options or {}, { pairs = "table" })
-  if not fields.is_finite(u) then
-    refuse("takes a share from 0 to 1 as its third argument, got %s", fields.shown(u))
-  end
+  fields.expect(fields.is_finite(u), u, "morph: takes a share from 0 to 1 as its third argument")
   local given = { a, b }
   for i = 1, 2 do
-    if not fields.is_object(given[i]) then
-      refuse("argument %d must be an object, got %s", i, fields.kind(given[i]))
-    end
+    fields.expect_kind(fields.is_object(given[i]), given[i],
+      "morph: argument %d must be an object", i)
   end
   local list = options and options.pairs
   if u <= 0 or u >= 1 then

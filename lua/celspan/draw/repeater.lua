@@ -37,9 +37,8 @@ local function read_scale(scale, offset)
       refuse("a scale below 0 goes with a whole offset alone: %s to the power of %s is no number",
         fields.shown(list[i]), fields.shown(offset))
     end
-    if list[i] == 0 and offset < 0 then
-      refuse("a scale of 0 goes with an offset of 0 or more, got %s", fields.shown(offset))
-    end
+    fields.expect(list[i] ~= 0 or offset >= 0, offset,
+      "repeater: a scale of 0 goes with an offset of 0 or more")
   end
   return list[1], list[2]
 end

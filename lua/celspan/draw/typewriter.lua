@@ -18,10 +18,8 @@ local SLACK = 1e-9 -- u = 3 / 10 is three letters of ten
 ---@return celspan.object typed
 ---@return number? x, number? y Nothing for a text without letters
 local function typed(_, text, u, options)
-  if not fields.is_finite(u) then
-    core.refuse("typewriter: the second argument must be a finite number, 0 to 1, got "
-      .. fields.shown(u))
-  end
+  fields.expect(fields.is_finite(u), u,
+    "typewriter: the second argument must be a finite number, 0 to 1")
   options = options or {}
   fields.check("typewriter", options, { by = "string" })
   local x, y

@@ -152,10 +152,8 @@ local painted = setmetatable({}, { __mode = "k" })
 
 local function read_weight(i, weight)
   if weight == nil or type(weight) == "function" then return weight end
-  if not fields.is_object(weight) then
-    refuse("bone %d: its weight must be an object or a function(x, y), got %s", i,
-      fields.kind(weight))
-  end
+  fields.expect_kind(fields.is_object(weight), weight,
+    "warp: bone %d: its weight must be an object or a function(x, y)", i)
   painted[weight] = painted[weight] or read_paint(weight)
   return painted[weight]
 end
@@ -387,10 +385,8 @@ local function check_boil(options)
   local grain = options.grain or GRAIN * amount
   fields.must(amount >= 0, "boil: field 'amount'", "0 or more", amount)
   fields.must(every >= 1, "boil: field 'every'", "1 or more", every)
-  if not (grain >= LEAST * amount and grain < math.huge) then
-    refuse_boil("field 'grain' must be at least %d times the amount, %.14g, or lines would fold, "
-      .. "got %s", LEAST, LEAST * amount, fields.shown(grain))
-  end
+  fields.expect(grain >= LEAST * amount and grain < math.huge, grain, "boil: field 'grain' must be "
+    .. "at least %d times the amount, %.14g, or lines would fold", LEAST, LEAST * amount)
   return amount, every, grain
 end
 

@@ -23,19 +23,13 @@ local rostrum_metatable = getmetatable(celspan.rostrum {})
 
 --- The weight of an exposure, checked in the same way as by the film.
 local function weight_of(i, exposure)
-  if type(exposure) ~= "table" then
-    core.refuse(("cut: exposure %d must be {rostrum, weight}, got %s"):format(i,
-      fields.kind(exposure)))
-  end
-  if getmetatable(exposure[1]) ~= rostrum_metatable then
-    core.refuse(("cut: exposure %d must show a rostrum, got %s"):format(i,
-      fields.kind(exposure[1])))
-  end
+  fields.expect_kind(type(exposure) == "table", exposure,
+    "cut: exposure %d must be {rostrum, weight}", i)
+  fields.expect_kind(getmetatable(exposure[1]) == rostrum_metatable, exposure[1],
+    "cut: exposure %d must show a rostrum", i)
   local weight = exposure[2] == nil and 1 or exposure[2]
-  if not fields.is_finite(weight) or weight < 0 then
-    core.refuse(("cut: exposure %d: its weight must be a finite number of 0 or more, got %s")
-      :format(i, fields.shown(weight)))
-  end
+  fields.expect(fields.is_finite(weight) and weight >= 0, weight,
+    "cut: exposure %d: its weight must be a finite number of 0 or more", i)
   return weight
 end
 
@@ -68,10 +62,8 @@ local Transition = fields.class("celspan.cut.transition", "a transition",
 --- A transition has `parts(a, b, u, size, step)`, which returns the exposures for two rostrums. One
 --- rostrum may be nil at an end of the film. step: the change of u from frame to frame.
 local function transition(noun, seconds, curve, parts)
-  if not fields.is_finite(seconds) or seconds <= 0 then
-    core.refuse(("cut: %s takes seconds, a number above 0, got %s"):format(noun,
-      fields.shown(seconds)))
-  end
+  fields.expect(fields.is_finite(seconds) and seconds > 0, seconds,
+    "cut: %s takes seconds, a number above 0", noun)
   local good, eased = pcall(ease, curve or "linear")
   if not good then core.refuse(("cut: %s: %s"):format(noun, eased)) end
   return setmetatable({ seconds = seconds, noun = noun, ease = eased, parts = parts }, Transition)
@@ -125,10 +117,9 @@ local function settings_of(noun, settings, known, ranges)
   fields.check("cut: " .. noun, settings, known)
   for name, range in pairs(ranges) do
     local value = settings[name]
-    if value and (value < range[1] or value > range[2]) then
-      core.refuse(("cut: %s: field '%s' must be %s..%s, got %s"):format(noun, name,
-        fields.shown(range[1]), fields.shown(range[2]), fields.shown(value)))
-    end
+    fields.expect(not value or value >= range[1] and value <= range[2], value,
+      "cut: %s: field '%s' must be %s..%s", noun, name, fields.shown(range[1]),
+      fields.shown(range[2]))
   end
 end
 
@@ -256,17 +247,14 @@ end
 
 local function read_shot(i, part, like)
   if carried.is_film(part) then part = { film = part } end
-  if type(part) ~= "table" then
-    complain(i, "must be a film, { film = ... } or a transition, got %s", fields.kind(part))
-  end
+  fields.expect_kind(type(part) == "table", part,
+    "cut: part %d: must be a film, { film = ... } or a transition", i)
   if carried.is_film(part[1]) then
     complain(i, "its film is the field 'film': { film = ..., from = ... }")
   end
   fields.check(("cut: part %d"):format(i), part, part_fields)
   local film = part.film
-  if not carried.is_film(film) then
-    complain(i, "field 'film' must be a film, got %s", fields.kind(film))
-  end
+  fields.expect_kind(carried.is_film(film), film, "cut: part %d: field 'film' must be a film", i)
   check_frame(i, part, "from", film)
   check_frame(i, part, "to", film)
   local from, to = part.from or film.first, part.to or film.first + film.frames - 1
@@ -447,9 +435,7 @@ end
 ---@param duration? number Seconds; default: the time of the last key
 ---@return celspan.film
 function cut.retime(film, list, duration)
-  if not carried.is_film(film) then
-    core.refuse("cut: retime takes a film, got " .. fields.kind(film))
-  end
+  fields.expect_kind(carried.is_film(film), film, "cut: retime takes a film")
   local is_track = type(list) == "table" and type(rawget(list, "keys")) == "table"
   local track = is_track and list or keys(list)
   check_keys(film, track)
@@ -457,9 +443,8 @@ function cut.retime(film, list, duration)
     core.refuse("cut: retime: keys with a loop need a duration, cut.retime(film, keys, 10)")
   end
   duration = duration == nil and track.keys[#track.keys].time or duration
-  if not fields.is_finite(duration) or duration <= 0 then
-    core.refuse("cut: retime: the duration must be above 0 seconds, got " .. fields.shown(duration))
-  end
+  fields.expect(fields.is_finite(duration) and duration > 0, duration,
+    "cut: retime: the duration must be above 0 seconds")
   local last = film.first + film.frames - 1
   local function number_at(index)
     local number = math.floor(track:at(index / film.fps) + carried.SMALL)

@@ -86,10 +86,8 @@ local function check(scene)
     end
   end
   for i = 1, #(scene.over or {}) do
-    if getmetatable(scene.over[i]) ~= cel_metatable then
-      core.refuse(("multiplane: over[%d] must be a cel, got %s")
-        :format(i, fields.kind(scene.over[i])))
-    end
+    fields.expect_kind(getmetatable(scene.over[i]) == cel_metatable, scene.over[i],
+      "multiplane: over[%d] must be a cel", i)
   end
 end
 

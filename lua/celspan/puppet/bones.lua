@@ -81,9 +81,8 @@ end
 local function read_bone(rig, i, given)
   fields.check(("puppet: bone %d"):format(i), given, known_bone, 6)
   local name = given[1]
-  if type(name) ~= "string" or name == "" then
-    refuse("bone %d must begin with its name, got %s", i, fields.shown(name))
-  end
+  fields.expect(type(name) == "string" and name ~= "", name,
+    "puppet: bone %d must begin with its name", i)
   if rig.bones[name] then refuse("two bones have the name '%s'", name) end
   if bones.reserved[name] then
     refuse("'%s' cannot be a bone's name: poses have a field of it", name)
@@ -183,16 +182,12 @@ function bones.read_turn(name, value)
   if type(value) == "number" then value = { rotate = value } end
   fields.check(("puppet: bone '%s'"):format(name), value, known_turn, 6)
   for _, field in ipairs { "rotate", "absolute", "scale", "stretch" } do
-    if value[field] ~= nil and not fields.is_finite(value[field]) then
-      refuse("bone '%s': field '%s' must be a finite number, got %s", name, field,
-        fields.shown(value[field]))
-    end
+    fields.expect(value[field] == nil or fields.is_finite(value[field]), value[field],
+      "puppet: bone '%s': field '%s' must be a finite number", name, field)
   end
   for _, field in ipairs { "scale", "stretch" } do
-    if (value[field] or 1) <= 0 then
-      refuse("bone '%s': field '%s' must be more than 0, got %s", name, field,
-        fields.shown(value[field]))
-    end
+    fields.expect((value[field] or 1) > 0, value[field],
+      "puppet: bone '%s': field '%s' must be more than 0", name, field)
   end
   return value
 end

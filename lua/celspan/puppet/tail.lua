@@ -110,9 +110,7 @@ end
 ---@return number[][] points {x, y} each, one more than it has links
 function methods:points(time)
   fields.self("puppet: tail", Tail, self, "points")
-  if not fields.is_finite(time) then
-    refuse("points takes a time, a finite number, got %s", fields.shown(time))
-  end
+  fields.expect(fields.is_finite(time), time, "puppet: tail: points takes a time, a finite number")
   local samples = {}
   for i = 1, self.count do
     samples[i] = sample(self, time - self.window * (i - 0.5) / self.count)

@@ -222,13 +222,10 @@ local function check_times(given, source)
   local from, to, speed = given.from or 0, given.to, given.speed or 1
   fields.must(speed > 0 and speed <= FASTEST, "footage: field 'speed'",
     ("above 0 and at most %d"):format(FASTEST), speed)
-  if from < 0 or from >= source.finish then
-    refuse("field 'from' must be from 0 to before the end, at %.6g seconds, got %s", source.finish,
-      fields.shown(from))
-  end
-  if to and to <= from then
-    refuse("field 'to' must be above 'from', %s, got %s", fields.shown(from), fields.shown(to))
-  end
+  fields.expect(from >= 0 and from < source.finish, from,
+    "footage: field 'from' must be from 0 to before the end, at %.6g seconds", source.finish)
+  fields.expect(not to or to > from, to,
+    "footage: field 'to' must be above 'from', %s", fields.shown(from))
   return from, math.min(to or source.finish, source.finish), speed
 end
 
@@ -274,9 +271,8 @@ end
 --- The picture with this number, from 1; beyond the ends as at those times.
 function Clip:frame(number)
   fields.self("footage", metatable, self, "frame")
-  if not fields.is_finite(number) or number ~= math.floor(number) then
-    refuse("frame takes a whole number from 1, got %s", fields.shown(number))
-  end
+  fields.expect(fields.is_finite(number) and number == math.floor(number), number,
+    "footage: frame takes a whole number from 1")
   local data = data_of[self]
   local place = data.loop and (number - 1) % self.frames or math.min(number, self.frames) - 1
   return data.source.texture(data.first + math.tointeger(math.max(0, place)))

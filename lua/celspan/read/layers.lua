@@ -427,10 +427,8 @@ local function changed_list(list, path, changes, done)
     if children then entry = remade(entry, children) end
     if change then
       local object = change(entry.object)
-      if not object or not pcall(celspan.union, { object }) then
-        core.refuse(("layers: the function of layer '%s' must return an object, got %s"):format(
-          here, fields.kind(object)))
-      end
+      fields.expect_kind(object and pcall(celspan.union, { object }), object,
+        "layers: the function of layer '%s' must return an object", here)
       entry = remade(entry, nil, object)
     end
     copy[i] = entry
@@ -449,10 +447,8 @@ function methods:with(changes)
   fields.takes("layers: with", "table", "a table of functions by path", changes)
   for path, change in next, changes do
     self:get(path)
-    if type(change) ~= "function" then
-      core.refuse(("layers: layer '%s' must have a function, got %s"):format(path,
-        fields.kind(change)))
-    end
+    fields.expect_kind(type(change) == "function", change,
+      "layers: layer '%s' must have a function", path)
   end
   local list = changed_list(self, "", changes, {})
   return list and complete_tree(list, self.width, self.height, self.skipped, spaces[self])

@@ -67,10 +67,8 @@ local function level(square)
 end
 
 local function check_seconds(seconds, method)
-  if not fields.is_finite(seconds) then
-    core.refuse(("sound: %s takes seconds, a finite number, got %s")
-      :format(method, fields.shown(seconds)))
-  end
+  fields.expect(fields.is_finite(seconds), seconds,
+    "sound: %s takes seconds, a finite number", method)
 end
 
 --- The loudness of the 0.4 seconds before a time: 0 is -60 LUFS or less, 1 is 0 LUFS or more.
@@ -139,10 +137,8 @@ function Sound:spectrum(seconds, bands)
   check_seconds(seconds, "spectrum")
   bands = bands == nil and BANDS or bands
   local count = math.type(bands) and math.tointeger(bands)
-  if not count or count < 1 or count > BANDS_MOST then
-    core.refuse(("sound: spectrum takes a number of bands, 1 to %d, got %s")
-      :format(BANDS_MOST, fields.shown(bands)))
-  end
+  fields.expect(count and count >= 1 and count <= BANDS_MOST, bands,
+    "sound: spectrum takes a number of bands, 1 to %d", BANDS_MOST)
   return spectrum.at(levels(self), seconds, count)
 end
 

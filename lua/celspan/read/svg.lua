@@ -97,9 +97,8 @@ function Art:with(changes)
       core.refuse(("svg: the drawing has no part '%s'%s"):format(fields.key(name),
         fields.hint(name, names) or ""))
     end
-    if type(change) ~= "function" then
-      core.refuse(("svg: part '%s' must have a function, got %s"):format(name, fields.kind(change)))
-    end
+    fields.expect_kind(type(change) == "function", change,
+      "svg: part '%s' must have a function", name)
   end
   return wrap(self.__drawing:with(changes), true)
 end

@@ -310,10 +310,8 @@ local function column_of(self, layer, method)
 end
 
 local function check_frame(frame, method)
-  if not fields.is_finite(frame) then
-    core.refuse(("sheet: %s takes a frame's number, a finite number, got %s"):format(method,
-      fields.shown(frame)))
-  end
+  fields.expect(fields.is_finite(frame), frame,
+    "sheet: %s takes a frame's number, a finite number", method)
   return math.floor(frame)
 end
 
@@ -445,10 +443,8 @@ function methods:drawing(layer, f, drawings)
   if kind == "string" then
     return celspan.image { file = by_pattern(name, name_of_layer, drawings) }
   end
-  if kind ~= "table" then
-    core.refuse("sheet: drawing: drawings must be a table, a pattern, layers or a function, got "
-      .. fields.kind(drawings))
-  end
+  fields.expect_kind(kind == "table", drawings,
+    "sheet: drawing: drawings must be a table, a pattern, layers or a function")
   if (getmetatable(drawings) or {}).__name == "celspan.layers.tree" then
     return (from_tree(drawings, name, name_of_layer, frame))
   end
@@ -567,9 +563,7 @@ end
 ---@param options? { frames?: integer[] } The numbers of frames; default: all
 ---@return celspan.sheet
 function sheet.of(film, options)
-  if not tostring(film):find "^film" then
-    core.refuse("sheet: of takes a film, got " .. fields.kind(film))
-  end
+  fields.expect_kind(tostring(film):find "^film", film, "sheet: of takes a film")
   options = options or {}
   fields.check("sheet: of", options, { frames = "table" })
   local listed = options.frames

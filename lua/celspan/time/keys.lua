@@ -263,9 +263,7 @@ function Track:at(time)
   local u = (time - before.time) / (after.time - before.time)
   if after.ease then
     u = after.ease(u)
-    if not fields.is_finite(u) then
-      core.refuse("keys: an ease must return a finite number, got " .. fields.shown(u))
-    end
+    fields.expect(fields.is_finite(u), u, "keys: an ease must return a finite number")
   end
   return mixers[self.kind](before.value, after.value, u)
 end

@@ -34,10 +34,8 @@ local function contours_of(given)
 end
 
 local function curve_of(outline)
-  if type(outline) ~= "string" and type(outline) ~= "table" then
-    core.refuse("motion: along takes path data, contours or a list of points {x, y}, got "
-      .. fields.kind(outline))
-  end
+  fields.expect_kind(type(outline) == "string" or type(outline) == "table", outline,
+    "motion: along takes path data, contours or a list of points {x, y}")
   local line = type(outline) == "string" and outline or contours_of(outline)
   local curve, message = curves.of("motion", line)
   return curve or core.refuse("motion: " .. message)
@@ -64,10 +62,8 @@ end
 local Wiggle = fields.class("celspan.motion.wiggle", "a wiggle")
 
 local function check_seed(name, seed)
-  if type(seed) ~= "string" and not fields.is_finite(seed) then
-    core.refuse(("motion: %s takes a seed, a string or a finite number, got %s"):format(name,
-      fields.shown(seed)))
-  end
+  fields.expect(type(seed) == "string" or fields.is_finite(seed), seed,
+    "motion: %s takes a seed, a string or a finite number", name)
 end
 
 --- A smooth random movement: the same for the same seed, on every machine.
@@ -124,10 +120,8 @@ function motion.noise(seed)
   local hash = chance.seed(seed)
   return function(x, y, z)
     for i, value in ipairs { x or 0 / 0, y or 0, z or 0 } do
-      if type(value) ~= "number" then
-        core.refuse(("motion: noise: coordinate %d must be a number, got %s"):format(i,
-          fields.kind(value)))
-      end
+      fields.expect_kind(type(value) == "number", value,
+        "motion: noise: coordinate %d must be a number", i)
     end
     if x == nil then core.refuse "motion: noise takes one to three numbers, got none" end
     local i, u = cell_of(x)
@@ -183,10 +177,8 @@ local function follow(source, response, window, swings)
 end
 
 local function check_source(name, source)
-  if type(source) ~= "function" then
-    core.refuse(("motion: %s takes a function of the time, got %s"):format(name,
-      fields.kind(source)))
-  end
+  fields.expect_kind(type(source) == "function", source,
+    "motion: %s takes a function of the time", name)
 end
 
 --- A value that follows another value like a mass on a spring: it is late, and swings beyond the
@@ -212,9 +204,8 @@ end
 ---@return celspan.motion.follower
 function motion.lag(source, seconds)
   check_source("lag", source)
-  if not fields.is_finite(seconds) or seconds <= 0 then
-    core.refuse("motion: lag takes seconds, a number above 0, got " .. fields.shown(seconds))
-  end
+  fields.expect(fields.is_finite(seconds) and seconds > 0, seconds,
+    "motion: lag takes seconds, a number above 0")
   return follow(source, function(time) return 1 - math.exp(-time / seconds) end,
                 -math.log(LEFT) * seconds, 0)
 end
@@ -239,10 +230,8 @@ end
 ---@return number
 function motion.stagger(u, i, count, overlap)
   for name, value in pairs { u = u, i = i, count = count, overlap = overlap or 0 } do
-    if not fields.is_finite(value) then
-      core.refuse(("motion: stagger: %s must be a finite number, got %s"):format(name,
-        fields.shown(value)))
-    end
+    fields.expect(fields.is_finite(value), value,
+      "motion: stagger: %s must be a finite number", name)
   end
   overlap = math.max(0, math.min(1, overlap or 0.5))
   local length = 1 / (1 + (count - 1) * (1 - overlap))

@@ -1,5 +1,4 @@
 --- Poses as values: mixed, layered and mirrored. A pose is a table as celspan.puppet takes it.
-local core = require "celspan.core"
 local fields = require "celspan.fields"
 
 local poses = {}
@@ -8,17 +7,11 @@ local poses = {}
 local rest = { scale = 1, stretch = 1 }
 
 local function check(what, pose)
-  if type(pose) ~= "table" then
-    core.refuse(("puppet: %s takes poses, which are tables, got %s"):format(what,
-      fields.kind(pose)))
-  end
+  fields.expect_kind(type(pose) == "table", pose, "puppet: %s takes poses, which are tables", what)
 end
 
 local function check_share(what, u)
-  if not fields.is_finite(u) then
-    core.refuse(("puppet: %s takes a share, a finite number, got %s"):format(what,
-      fields.shown(u)))
-  end
+  fields.expect(fields.is_finite(u), u, "puppet: %s takes a share, a finite number", what)
 end
 
 -- ---------------------------------------------------------------- copies

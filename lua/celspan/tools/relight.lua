@@ -29,13 +29,10 @@ end
 local function refuse(text, ...) core.refuse("relight: " .. text:format(...)) end
 
 local function numbers_of(name, value, count, shape)
-  if type(value) ~= "table" then
-    refuse("%s must be %s, got %s", name, shape, fields.kind(value))
-  end
+  fields.expect_kind(type(value) == "table", value, "relight: %s must be %s", name, shape)
   for i = 1, count do
-    if not fields.is_finite(value[i]) then
-      refuse("%s[%d] must be a finite number, got %s", name, i, fields.shown(value[i]))
-    end
+    fields.expect(fields.is_finite(value[i]), value[i],
+      "relight: %s[%d] must be a finite number", name, i)
   end
   return value
 end
@@ -48,9 +45,7 @@ local function colour_of(name, value)
   end
   numbers_of(name, colour, 3, "{r, g, b} or a colour")
   for i = 1, 3 do
-    if colour[i] < 0 then
-      refuse("%s[%d] must be 0 or more, got %s", name, i, fields.shown(colour[i]))
-    end
+    fields.expect(colour[i] >= 0, colour[i], "relight: %s[%d] must be 0 or more", name, i)
   end
   return colour
 end
@@ -58,9 +53,8 @@ end
 --- A picture: a file name or a celspan.picture.
 local function picture_of(name, value)
   if type(value) == "string" then return celspan.picture { file = value } end
-  if type(value) ~= "userdata" or not tostring(value):find "^picture" then
-    refuse("%s must be a file's name or a celspan.picture, got %s", name, fields.kind(value))
-  end
+  fields.expect_kind(type(value) == "userdata" and tostring(value):find "^picture", value,
+    "relight: %s must be a file's name or a celspan.picture", name)
   return value
 end
 
@@ -190,9 +184,7 @@ function relight.from(options)
 end
 
 local function check_path(name, path)
-  if type(path) ~= "string" then
-    refuse("%s takes the name of a file, got %s", name, fields.kind(path))
-  end
+  fields.expect_kind(type(path) == "string", path, "relight: %s takes the name of a file", name)
 end
 
 --- Stores a relit picture, or any picture, as an EXR file of seven channels.
@@ -262,9 +254,8 @@ local function light_of(self, name, value)
   local alpha = type(value) == "table" and value[4]
   local colour = colour_of(name, value)
   if self.mixes_codes and type(value) == "string" then colour = codes_of(value) end
-  if alpha and not (fields.is_finite(alpha) and alpha >= 0 and alpha <= 1) then
-    refuse("%s[4] must be from 0 to 1, got %s", name, fields.shown(alpha))
-  end
+  fields.expect(not alpha or fields.is_finite(alpha) and alpha >= 0 and alpha <= 1, alpha,
+    "relight: %s[4] must be from 0 to 1", name)
   return colour, alpha or 1
 end
 
@@ -315,9 +306,8 @@ function methods:light(changes)
   fields.self("relight", Stack, self, "light")
   local self_behind = behind[self]
   local lights, keys = table.move(self_behind.own, 1, #self_behind.own, 1, {}), {}
-  if changes ~= nil and type(changes) ~= "table" then
-    refuse("light takes a table, got %s", fields.kind(changes))
-  end
+  fields.expect_kind(changes == nil or type(changes) == "table", changes,
+    "relight: light takes a table")
   for key in pairs(changes or {}) do keys[#keys + 1] = key end
   table.sort(keys, function(a, b) -- positions override names, and cels override the rostrum
     local rank_a, rank_b = ranks[type(a)] or 3, ranks[type(b)] or 3

@@ -55,9 +55,7 @@ end
 local function number_of(method, f)
   local number = f
   if type(f) == "userdata" and tostring(f):find "^frame" then number = f.number end
-  if not fields.is_finite(number) then
-    core.refuse(("track: %s takes a frame or its number, got %s"):format(method, fields.shown(f)))
-  end
+  fields.expect(fields.is_finite(number), f, "track: %s takes a frame or its number", method)
   return number
 end
 
@@ -131,10 +129,8 @@ local function check_options(options)
     core.refuse(("track: field 'model' must be \"%s\", got \"%s\""):format(
       table.concat(models, '", "'), model))
   end
-  if not options.from or math.type(math.tointeger(options.from)) ~= "integer" then
-    core.refuse("track: field 'from' must be the number of a frame, got "
-      .. fields.shown(options.from))
-  end
+  fields.expect(options.from and math.type(math.tointeger(options.from)) == "integer", options.from,
+    "track: field 'from' must be the number of a frame")
   local at = options.at
   if type(at) == "table" then
     fields.numbers("track", "at[%d]", at, 4, "{x, y, w, h} or an object")
