@@ -14,18 +14,21 @@ files.MOST_CAPTIONS = 64 * 1024 * 1024 -- bytes of a file of captions
 ---@return string? message
 function files.read(path, most) return core.file_text(path, most) end
 
---- The same for a file named in a script: it is beside the caller's file, or else beside the
---- script.
+--- Reads a file named in a script, which is beside the caller's file, or else beside the script.
+--- read(path, ...): returns what it has read, or nil and a message.
+function files.found(path, read, ...)
+  local found_at, tried = core.find(path)
+  local value, message = read(found_at, ...)
+  if value or not tried then return value, message end
+  return nil, ("%s; also looked for at %s"):format(message, tried)
+end
+
+--- The text of a file named in a script.
 ---@param path string
 ---@param most integer Bytes
 ---@return string? text
 ---@return string? message
-function files.read_found(path, most)
-  local found_at, tried = core.find(path)
-  local text, message = files.read(found_at, most)
-  if text or not tried then return text, message end
-  return nil, ("%s; also looked for at %s"):format(message, tried)
-end
+function files.read_found(path, most) return files.found(path, files.read, most) end
 
 --- celspan.read: the text of a file named in a script.
 function files.text(path)

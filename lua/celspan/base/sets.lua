@@ -4,6 +4,7 @@
 -- of a group that is named "mouth", and so is its child "mouth C".
 local core = require "celspan.core"
 local fields = require "celspan.fields"
+local ordered = require "celspan.ordered"
 
 local sets = {}
 
@@ -46,13 +47,11 @@ end
 ---@param parts table<string, any> By name
 ---@param set string
 function sets.hint(parts, set)
-  local known, names = {}, {}
+  local known = {}
   for name in pairs(parts) do
     for place in name:gmatch "()[ %-_/.:]" do known[name:sub(1, place - 1)] = true end
   end
-  for name in pairs(known) do names[#names + 1] = name end
-  table.sort(names)
-  return fields.hint(set, names) or ""
+  return fields.hint(set, ordered.names(known)) or ""
 end
 
 --- The members of a set: the names of the parts, by member. Also a sorted list of the members.

@@ -18,6 +18,7 @@
 local celspan = require "celspan"
 local core = require "celspan.core"
 local fields = require "celspan.fields"
+local ordered = require "celspan.ordered"
 
 local spec = {}
 
@@ -203,9 +204,7 @@ end
 --- Raises an error unless a cel of the frame has the name; the message lists the known names.
 local function need_name(subject, names)
   if names[subject.name] then return end
-  local list = {}
-  for name in pairs(names) do list[#list + 1] = name end
-  table.sort(list)
+  local list = ordered.names(names)
   local hint = core.nearest(subject.name, list)
   refuse(("frame %d has no cel named %q%s"):format(subject.frame, subject.name,
     hint and ("; did you mean %q?"):format(hint)

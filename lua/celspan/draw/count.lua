@@ -7,6 +7,7 @@
 -- Separators and sizes of groups are those of Unicode's locale data (CLDR).
 local core = require "celspan.core"
 local fields = require "celspan.fields"
+local ordered = require "celspan.ordered"
 
 local count = {}
 
@@ -34,10 +35,8 @@ local function refuse(text, ...) core.refuse("count: " .. text:format(...)) end
 local function style_of(language)
   local style = known[language] or known[language:match "^%a+" or ""]
   if style then return style end
-  local names = {}
-  for name in pairs(known) do names[#names + 1] = name end
-  table.sort(names)
-  refuse("there is no language %q; there are %s", language, table.concat(names, ", "))
+  refuse("there is no language %q; there are %s", language,
+    table.concat(ordered.names(known), ", "))
 end
 
 --- The digits with separators: one before the last three digits, and one before each group in front

@@ -11,6 +11,7 @@
 --       |   .'                 either are joints of both in the end, and their control points move
 --       o--'______ nodes of a  on straight lines.
 local curves = require "celspan.curves"
+local ordered = require "celspan.ordered"
 
 local outlines = {}
 
@@ -77,12 +78,7 @@ end
 
 --- The piece at a share of the length.
 local function piece_at(way, s)
-  local length, low, high = s * way.length, 1, #way
-  while low < high do
-    local middle = (low + high + 1) // 2
-    if way[middle].start <= length then low = middle else high = middle - 1 end
-  end
-  return way[low]
+  return way[math.max(1, ordered.last(way, s * way.length, "start"))]
 end
 
 --- The parameter of a piece at a share of the whole length, between 0 and 1.

@@ -13,6 +13,7 @@ local core = require "celspan.core"
 local ease = require "celspan.ease"
 local fields = require "celspan.fields"
 local json = require "celspan.json"
+local ordered = require "celspan.ordered"
 
 local parameters = {}
 
@@ -245,10 +246,7 @@ local function set_from(settings, declared, values, given)
   if type(object) ~= "table" or object == json.null or #object > 0 then
     refuse_setting(settings, '%sit must be a JSON object, { "name": value }', given.source)
   end
-  local names = {}
-  for name in pairs(object) do names[#names + 1] = name end
-  table.sort(names)
-  for _, name in ipairs(names) do
+  for _, name in ipairs(ordered.names(object)) do
     set(settings, declared, values, given.source, name, object[name])
   end
 end

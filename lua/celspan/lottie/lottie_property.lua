@@ -10,6 +10,7 @@
 local contours = require "celspan.lottie_contour"
 local curves = require "celspan.curves"
 local ease = require "celspan.ease"
+local ordered = require "celspan.ordered"
 local values = require "celspan.lottie_values"
 
 local property = {}
@@ -140,12 +141,8 @@ end
 
 --- The value at a frame.
 local function value_at(times, segment_of, t)
-  local low, high = 1, #times
-  while low < high do
-    local middle = (low + high + 1) // 2
-    if times[middle] <= t then low = middle else high = middle - 1 end
-  end
-  local segment, after = segment_of(low), times[low + 1]
+  local place = math.max(1, ordered.last(times, t))
+  local segment, after = segment_of(place), times[place + 1]
   if t <= segment.t or not after or segment.is_held then return segment.from end
   return within(segment, after - segment.t, t)
 end

@@ -11,8 +11,10 @@ local celspan = require "celspan"
 local core = require "celspan.core"
 local dissolve = require "celspan.dissolve"
 local fields = require "celspan.fields"
+local files = require "celspan.files"
 local oca = require "celspan.oca"
 local sets = require "celspan.sets"
+local sheet_oca = require "celspan.sheet_oca"
 
 local layers = {}
 
@@ -276,17 +278,6 @@ local function from_folder(path, names, options)
   return make_tree(list, nil, nil, skipped, options)
 end
 
---- The document among the files of an OCA folder.
-local function find_document(names)
-  table.sort(names)
-  for _, name in ipairs(names) do
-    if name:match "%.oca$" then return name end
-  end
-  for _, name in ipairs(names) do
-    if name:match "%.json$" and not name:match "_meta%.json$" then return name end
-  end
-end
-
 local function from_oca(folder, document, options)
   local read, message = oca.read(folder, document)
   if not read then return nil, message end
@@ -306,16 +297,10 @@ end
 
 -- ---------------------------------------------------------------- the module
 
-local function is_there(path)
-  local file = io.open(path, "rb")
-  if file then file:close() end
-  return file ~= nil
-end
-
 local function read_any(path, options)
   local names, message = core.folder(path)
   if names then
-    local document = find_document(names)
+    local document = sheet_oca.document(names)
     if document then return from_oca(path, document, options) end
     return from_folder(path, names, options)
   end
@@ -338,13 +323,7 @@ function layers.read(path, options)
   options = options or {}
   fields.check("layers: read", options, { smooth = "boolean", space = "any" })
   fields.space("layers", options.space)
-  local found_at, tried = core.find(path)
-  local tree, message = read_any(found_at, { smooth = options.smooth,
-                                             space = options.space or "srgb" })
-  if not tree and tried and not is_there(found_at) then
-    message = ("%s; also looked for at %s"):format(message, tried)
-  end
-  return tree, message
+  return files.found(path, read_any, { smooth = options.smooth, space = options.space or "srgb" })
 end
 
 --- layers.read for a painting that must be readable: raises an error if it is not.

@@ -14,6 +14,8 @@
 local celspan = require "celspan"
 local core = require "celspan.core"
 local fields = require "celspan.fields"
+local files = require "celspan.files"
+local ordered = require "celspan.ordered"
 local sets = require "celspan.sets"
 
 local svg = {}
@@ -82,10 +84,7 @@ end
 function Art:with(changes)
   fields.self("svg", Art, self, "with")
   fields.takes("svg: with", "table", "a table of functions by part", changes)
-  local names = {}
-  for name in pairs(self.parts) do names[#names + 1] = name end
-  table.sort(names)
-  local numbers
+  local names, numbers = ordered.names(self.parts), nil
   for name, change in next, changes do
     if not numbers and type(name) == "string" and name:find "^#%d+$" then
       numbers = {}
@@ -209,11 +208,10 @@ function svg.read(path, options)
   options = options == nil and {} or options
   fields.check("svg: read", options, { fonts = "table", space = "any" })
   fields.space("svg", options.space)
-  local found_at, tried = core.find(path)
-  local drawing, message =
-    core.read_svg(found_at, list_fonts(options), options.space or "srgb", move)
+  local drawing, message = files.found(path, core.read_svg, list_fonts(options),
+    options.space or "srgb", move)
   if drawing then return wrap(drawing) end
-  return nil, tried and ("%s; also looked for at %s"):format(message, tried) or message
+  return nil, message
 end
 
 --- svg.read for a drawing that must be readable: raises an error if it is not.

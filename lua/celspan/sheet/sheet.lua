@@ -250,22 +250,12 @@ local function decode(text, path, which)
     .. "which begins with \"celspan sheet 1\"")
 end
 
---- The document of an OCA folder.
-local function document_in(path, names)
-  table.sort(names)
-  for _, pattern in ipairs { "%.oca$", "%.json$" } do
-    for _, name in ipairs(names) do
-      if name:match(pattern) and not name:match "_meta%.json$" then return path .. "/" .. name end
-    end
-  end
-end
-
 local function read_whole(path)
   local names = core.folder(path)
   if names then
-    local document = document_in(path, names)
+    local document = sheet_oca.document(names)
     if not document then return nil, path .. ": the folder contains no OCA document" end
-    path = document
+    path = path .. "/" .. document
   end
   return files.read(path, sheet.most_bytes)
 end
@@ -278,11 +268,8 @@ function sheet.read(path, options)
   fields.takes("sheet: read", "string", "the name of a file or folder", path)
   options = options or {}
   fields.check("sheet: read", options, { table = "any" })
-  local found_at, tried = core.find(path)
-  local text, message = read_whole(found_at)
-  if not text then
-    return nil, tried and ("%s; also looked for at %s"):format(message, tried) or message
-  end
+  local text, message = files.found(path, read_whole)
+  if not text then return nil, message end
   local made
   made, message = fields.caught(decode, text, path, options.table or 1)
   if not made then return nil, ("%s: %s"):format(path, message) end

@@ -114,4 +114,14 @@ function sheet_oca.decode(text)
            frames = columns.length(math.max(1, stop - start), state.layers, {}) }
 end
 
+--- The document among the files of an OCA folder; nil: there is none.
+function sheet_oca.document(names)
+  table.sort(names)
+  for _, pattern in ipairs { "%.oca$", "%.json$" } do
+    for _, name in ipairs(names) do
+      if name:match(pattern) and not name:match "_meta%.json$" then return name end
+    end
+  end
+end
+
 return fields.seal("sheet_oca", sheet_oca)

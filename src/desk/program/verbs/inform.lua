@@ -5,6 +5,7 @@
 local layers = require "celspan.layers"
 local svg = require "celspan.svg"
 local fields = require "celspan.fields"
+local ordered = require "celspan.ordered"
 
 local inform = {}
 
@@ -61,9 +62,7 @@ inform.painting = described(layers.read, of_painting)
 -- ---------------------------------------------------------------- drawings
 
 local function of_drawing(art)
-  local names, entries = {}, {}
-  for name in pairs(art.parts) do names[#names + 1] = name end
-  table.sort(names)
+  local names, entries = ordered.names(art.parts), {}
   for i, name in ipairs(names) do
     local size, at = place_of(art.parts[name])
     entries[i] = { kind = "part", name = name, size = size, at = at }

@@ -1,5 +1,6 @@
 --- celspan sheet FILE|SCRIPT: an exposure sheet, or the sheet of a film, as text or converted.
 local program, request = ...
+local ordered = require "celspan.ordered"
 local sheet = require "celspan.sheet"
 
 local input, output = request[1], request.output
@@ -9,9 +10,7 @@ local is_script = request.script or program.has_ending(input, ".lua")
 local function marks_of(made, layer)
   local list = {}
   for frame, marks in pairs(made:marks(layer)) do
-    local names = {}
-    for name in pairs(marks) do names[#names + 1] = name end
-    table.sort(names)
+    local names = ordered.names(marks)
     if #names > 0 then list[#list + 1] = { frame = frame, marks = names } end
   end
   table.sort(list, function(a, b) return a.frame < b.frame end)
