@@ -121,8 +121,8 @@ function manual.annotations()
     by_line[noun.table and noun.table:gsub("^celspan%.", "") or noun.name] = noun
   end
   local text = require "celspan.annotations"
-  text = text:gsub("%-%-%-@written ([%w_]+): ([%w_]+)%.([%w_]+)", from_module):gsub("\n\n\n", "\n\n")
-  text = text:gsub("%-%-%-@own (%S+)\n(.-)function ",
+  text = text:gsub("%-%-%-@written ([%w_]+): ([%w_]+)%.([%w_]+)", from_module)
+  text = text:gsub("\n\n\n", "\n\n"):gsub("%-%-%-@own (%S+)\n(.-)function ",
     "---@generic T: %1\n---@param self T\n%2---@return T\nfunction ")
   return (text:gsub("%-%-%-@noun ([%w_.]+):? ?([%w_.]*)", function(name, parent)
     local noun = assert(by_line[name], name)

@@ -87,8 +87,8 @@ end
 function count.timecode(index, fps, options)
   options = options or {}
   fields.check("timecode", options, { drop = "boolean" })
-  fields.expect(fields.is_finite(index) and index >= 0 and index <= 2 ^ 53 and index % 1 == 0, index,
-    "timecode: the first argument, a frame, must be a whole number from 0 on")
+  fields.expect(fields.is_finite(index) and index % 1 == 0 and index >= 0 and index <= 2 ^ 53,
+    index, "timecode: the first argument, a frame, must be a whole number from 0 on")
   local rate = fields.is_finite(fps) and math.floor(fps + 0.5) or 0
   fields.expect(rate >= 1 and rate <= 1000, fps,
     "timecode: the second argument must be frames per second, 1 to 1000")
