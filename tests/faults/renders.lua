@@ -3,7 +3,7 @@
 -- function that represents a host's procedure that may fail.
 --
 -- Returns a list of renders: name, film, size, and
---   sinks     what it is rendered into, in addition to "digest": see tests/faults/sinks.c
+--   sinks     what it is rendered into, in addition to "digest": see tests/faults/stage.h
 --   is_cold   it reads files, which a context caches: every try has a new context
 --   workers   1 by default
 --   leaves_out   it leaves out missing files, and reports it

@@ -5,7 +5,7 @@
  *   output/sinks/file.h           a file has its name when it is complete, and not before
  *   output/sinks/pixels.h         rows as coded pixels, of any coding
  *   output/sinks/coder.h          the same by the workers, with dithering
- *   output/sinks/ycc_sink.h    pixels as luma and chroma apart, for videos
+ *   output/sinks/ycc_sink.h       pixels as luma and chroma apart, for videos
  *   output/sinks/picture_file.h   files of formats that a picture module writes
  *   output/sinks/strip.h          rows that are made together, as a file of their own
  *   output/sinks/shares.h         a sink that takes rows from several threads

@@ -50,7 +50,7 @@ static cs_boundary_frame find_reads(const cs_defocus_cel *place, const celspan_m
   return cs_boundary_around_box(&far, &place->matrix, &out) ? grown(&out, 1, 1) : *beyond;
 }
 
-/* A plane is as large as numbers allow, and only its making refuses the cel (frames/plane). */
+/* A plane is as large as numbers allow, and only its making refuses the cel (writers/plane). */
 static celspan_status check_sides(celspan_context *context, const cs_shifted_part *part) {
   double width = (double)part->end[0] - part->first[0],
          height = (double)part->end[1] - part->first[1];

@@ -189,7 +189,7 @@ typedef struct file_format {
   celspan_status (*create)(celspan_context *, const char *, const celspan_file_desc *,
                            celspan_sink *);
   bool is_dithered; /* depth 8_DITHER is allowed: another sink dithers before it */
-  bool has_strips;  /* output/join can join them */
+  bool has_strips;  /* writers/join can join them */
 } file_format;
 
 static const file_format formats[] = {{{"png"}, cs_sink_png, true, true},

@@ -32,7 +32,7 @@ typedef struct cs_page {
 
 /* Lists of words have a space before and after each. */
 typedef struct cs_output {
-  const char *kind;   /* of what it is, in the plural */
+  const char *kind;   /* what it is called in messages and tables, in the plural */
   const char *names;  /* the formats: endings of names; NULL: those of the picture module */
   const char *makers; /* the verbs that make it; NULL: all that write pictures */
   const char *takes;  /* the options of outputs that it takes */

@@ -1,7 +1,7 @@
 /* The interface of the colour module (src/kit/plugins/icc, over Little CMS): colour profiles as
  * tables of numbers.
  *
- *   ICC profile --module: sample--> table --core--> light of each pixel
+ *   ICC profile --module: sample--> table --reader--> light of each pixel
  *
  * A table has one of two forms, with red, green and blue codes r, g and b of 0 to 1:
  *

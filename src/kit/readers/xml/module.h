@@ -1,9 +1,9 @@
 /* The interface of the art module (src/kit/plugins/type, over expat, HarfBuzz, FriBidi and
  * libunibreak): a table of C functions.
  *
- *   bytes of a file --module: parse--> elements, attributes, text --core--> scene values
+ *   bytes of a file --module: parse--> elements, attributes, text --readers--> scene values
  *
- * The module knows libraries; the core knows what documents mean, and draws them.
+ * The module knows libraries, and the readers know what documents mean.
  *
  * INVARIANT: no memory changes its owner, nothing outside the bytes is read, and every failure
  * comes with a sentence.
