@@ -180,6 +180,8 @@ bool pf_base_begin(const pf_memory *memory, pf_base *out);
 /* band: what was decoded, borrowed. False: no memory. */
 bool pf_base_complete(const planefile_band *band, size_t code, pf_base *base);
 void pf_base_free(pf_base *base);
+/* The models with which a band begins. base: NULL: none; programs: NULL: nothing varies. */
+void pf_base_learned(const pf_base *base, pf_models *models, pf_program_models *programs);
 /* The cells of a chain at its first border. */
 static inline pf_sides pf_base_sides(const pf_base *base, uint32_t chain) {
   if (base->first[chain] == base->first[chain + 1])
@@ -247,6 +249,16 @@ typedef struct pf_payload {
 planefile_status pf_band_decode(const pf_memory *memory, const pf_payload *payload, pf_band *out,
                                 const char **reason);
 void pf_band_free(const pf_memory *memory, pf_band *band);
+/* Finds the runs of a band whose borders are by their chains. False: no memory. */
+bool pf_band_make_runs(const pf_memory *memory, pf_band *out);
+
+/* Whether a plane that somebody wants to write has all that it refers to, on the grid, as readers accept
+ * it. */
+bool pf_plane_is_good(const planefile_band *plane, planefile_grid grid);
+
+/* -1, 0 or 1, for qsort: of numbers; of borders by their chains, then by their tops. */
+static inline int pf_order(int64_t a, int64_t b) { return (a > b) - (a < b); }
+int pf_border_compare(const void *first, const void *second);
 
 /* A part of a plane: what lies in the heights [top, foot). */
 typedef struct pf_part {

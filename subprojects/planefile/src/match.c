@@ -283,12 +283,10 @@ bool pf_match_note(pf_match *m, uint32_t theirs, uint32_t ours) {
   return true;
 }
 
-static int order_of(uint32_t a, uint32_t b) { return (a > b) - (a < b); }
-
 static int compare_pairs(const void *first, const void *second) {
   const pf_pair *a = first, *b = second;
-  int by_theirs = order_of(a->theirs, b->theirs);
-  return by_theirs ? by_theirs : order_of(a->ours, b->ours);
+  int by_theirs = pf_order(a->theirs, b->theirs);
+  return by_theirs ? by_theirs : pf_order(a->ours, b->ours);
 }
 
 /* Those that are the same come first, then those that are noted most. */
@@ -296,7 +294,7 @@ static int compare_worth(const void *first, const void *second) {
   const pf_pair *a = first, *b = second;
   if (a->is_same != b->is_same)
     return a->is_same ? -1 : 1;
-  return a->count != b->count ? order_of(b->count, a->count) : compare_pairs(a, b);
+  return a->count != b->count ? pf_order(b->count, a->count) : compare_pairs(a, b);
 }
 
 /* Leaves each pair once. */

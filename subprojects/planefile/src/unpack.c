@@ -3,7 +3,8 @@
  * INVARIANT: nothing in the code is trusted. Memory is allocated only for what its bytes pay for,
  * and every number is checked before it is used.
  *
- * One file, because every function reads on in one code, where the one before has ended.
+ * One file, because it is one walk along one code: each function reads on where the one before has
+ * ended, in the order in which pack.c has written.
  */
 #include "band.h"
 
@@ -51,49 +52,6 @@ typedef struct unpacker {
 static bool refuse(unpacker *u, const char *reason) {
   u->reason = u->reason ? u->reason : reason;
   return false;
-}
-
-void pf_band_free(const pf_memory *memory, pf_band *band) {
-  planefile_band *b = &band->band;
-  pf_free(memory, (void *)b->points, sizeof *b->points, band->point_capacity);
-  pf_free(memory, (void *)b->pieces, sizeof *b->pieces, band->piece_capacity);
-  pf_free(memory, (void *)b->chains, sizeof *b->chains, band->chain_capacity);
-  pf_free(memory, (void *)b->borders, sizeof *b->borders, band->border_capacity);
-  pf_free(memory, (void *)b->cells, sizeof *b->cells, band->cell_capacity);
-  pf_free(memory, (void *)b->programs, sizeof *b->programs, band->program_capacity);
-  pf_free(memory, (void *)b->steps, sizeof *b->steps, band->step_capacity);
-  pf_free(memory, (void *)b->axes, sizeof *b->axes, band->axis_capacity);
-  pf_free(memory, (void *)b->stops, sizeof *b->stops, band->stop_capacity);
-  pf_free(memory, band->runs, sizeof *band->runs, band->run_capacity);
-}
-
-/* ---------------------------------------------------------------- bases */
-
-bool pf_base_begin(const pf_memory *memory, pf_base *out) {
-  *out = (pf_base){.memory = *memory, .learned = pf_make(memory, sizeof *out->learned, 1)};
-  return out->learned != NULL;
-}
-
-bool pf_base_complete(const planefile_band *band, size_t code, pf_base *base) {
-  size_t chains = band->chain_count;
-  base->band = band;
-  base->code = code;
-  base->first = pf_make(&base->memory, sizeof *base->first, chains + 1);
-  if (!base->first)
-    return false;
-  for (uint32_t i = 0; i < band->border_count; i++)
-    base->first[band->borders[i].chain + 1]++;
-  for (size_t i = 0; i < chains; i++)
-    base->first[i + 1] += base->first[i];
-  return true;
-}
-
-void pf_base_free(pf_base *base) {
-  if (base->band)
-    pf_free(&base->memory, base->first, sizeof *base->first, (size_t)base->band->chain_count + 1);
-  if (base->learned)
-    pf_free(&base->memory, base->learned, sizeof *base->learned, 1);
-  *base = (pf_base){0};
 }
 
 /* ---------------------------------------------------------------- room */
@@ -650,60 +608,6 @@ static bool sort_borders(unpacker *u) {
   return is_done;
 }
 
-/* The limits of a chain, across. */
-static void find_sides(const planefile_band *band, const planefile_chain *chain, pf_run *run) {
-  const planefile_piece *first = &band->pieces[chain->piece];
-  const planefile_piece *last = first + chain->piece_count - 1;
-  run->low = run->high = band->points[first->point].x;
-  for (uint32_t i = first->point; i <= last->point + last->degree; i++) {
-    int32_t x = band->points[i].x;
-    run->low = x < run->low ? x : run->low;
-    run->high = x > run->high ? x : run->high;
-  }
-}
-
-/* The runs of borders, which are by their chains. */
-static void find_runs(pf_band *out, pf_run *runs) {
-  const planefile_band *band = &out->band;
-  for (uint32_t i = 0, end; i < band->border_count; i = end) {
-    pf_run *run = &runs[out->run_count++];
-    for (end = i + 1;
-         end < band->border_count && band->borders[end].chain == band->borders[i].chain;)
-      end++;
-    *run = (pf_run){.top = band->borders[i].top, .foot = band->borders[end - 1].foot, .border = i};
-    find_sides(band, &band->chains[band->borders[i].chain], run);
-  }
-}
-
-enum { DIGIT = 9, DIGITS = 1 << DIGIT };
-
-/* Sorts by one digit of the tops; equal ones keep their order. */
-static void sort_digit(const pf_run *from, pf_run *to, uint32_t count, int shift) {
-  uint32_t places[DIGITS + 1] = {0};
-  for (uint32_t i = 0; i < count; i++)
-    places[((uint32_t)from[i].top >> shift & (DIGITS - 1)) + 1]++;
-  for (int i = 0; i < DIGITS; i++)
-    places[i + 1] += places[i];
-  for (uint32_t i = 0; i < count; i++)
-    to[places[(uint32_t)from[i].top >> shift & (DIGITS - 1)]++] = from[i];
-}
-
-static bool make_runs(const pf_memory *memory, pf_band *out) {
-  uint32_t chains = out->band.chain_count;
-  pf_run *runs = pf_make(memory, sizeof *runs, chains);
-  out->runs = pf_make(memory, sizeof *out->runs, chains);
-  out->run_capacity = chains;
-  if (runs && out->runs) {
-    find_runs(out, runs);
-    sort_digit(runs, out->runs, out->run_count, 0);
-    sort_digit(out->runs, runs, out->run_count, DIGIT);
-    sort_digit(runs, out->runs, out->run_count, 2 * DIGIT);
-  }
-  bool is_done = runs && out->runs;
-  pf_free(memory, runs, sizeof *runs, chains);
-  return is_done;
-}
-
 /* ---------------------------------------------------------------- the band */
 
 static bool get_chains(unpacker *u) {
@@ -793,18 +697,6 @@ static bool get_beginning(unpacker *u) {
                  : add_cell(u, &cell) && get_content(u, &none, cell);
 }
 
-static void begin_models(unpacker *u) {
-  const pf_learned *learned = u->base ? u->base->learned : NULL;
-  if (learned)
-    u->models = learned->models;
-  else
-    pf_models_begin(&u->models, sizeof u->models);
-  if (u->coding && learned)
-    u->coding->models = learned->programs;
-  else if (u->coding)
-    pf_models_begin(&u->coding->models, sizeof u->coding->models);
-}
-
 static void teach(const unpacker *u, pf_learned *out) {
   out->models = u->models;
   if (u->coding)
@@ -826,7 +718,7 @@ static bool unpack(unpacker *u, const pf_payload *payload) {
       (varies && !load_varied_counts(u, payload->bytes, paid)) || !make_room(u) ||
       (varies && !make_varied_room(u)))
     return false;
-  begin_models(u);
+  pf_base_learned(u->base, &u->models, u->coding ? &u->coding->models : NULL);
   pf_decoder_begin(&u->decoder, payload->bytes + head, code);
   return get_beginning(u) && get_chains(u) && get_changes(u) && check_end(u) && sort_borders(u);
 }
@@ -852,5 +744,5 @@ planefile_status pf_band_decode(const pf_memory *memory, const pf_payload *paylo
   pf_free(memory, u->coding, sizeof *u->coding, 1);
   pf_free(memory, u->states, sizeof *u->states, u->chain_count);
   pf_free(memory, u, sizeof *u, 1);
-  return status == PLANEFILE_OK && !make_runs(memory, out) ? PLANEFILE_NO_MEMORY : status;
+  return status == PLANEFILE_OK && !pf_band_make_runs(memory, out) ? PLANEFILE_NO_MEMORY : status;
 }
