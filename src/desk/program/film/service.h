@@ -53,6 +53,8 @@ void cs_service_require(lua_State *L, cs_exit outcome);
 void cs_service_try(lua_State *L, celspan_status status);
 
 /* The services of each file, by name; the last one has no name. */
-extern const luaL_Reg cs_services_reports[], cs_services_script[], cs_services_files[],
-    cs_services_pictures[], cs_services_processes[], cs_services_renderers[], cs_services_stage[],
-    cs_services_shown[], cs_services_watchers[], cs_services_web[];
+extern const luaL_Reg cs_services_compare[], cs_services_reports[], cs_services_script[],
+    cs_services_files[], cs_services_pictures[], cs_services_processes[], cs_services_renderers[],
+    cs_services_stage[], cs_services_shown[], cs_services_watchers[], cs_services_web[];
+/* Methods of a film beside those of script_service.c. */
+extern const luaL_Reg cs_methods_scene[], cs_methods_shooting[];

@@ -229,10 +229,19 @@ static const luaL_Reg own_services[] = {{"verbs", push_verbs},
 
 /* program.NAME, for the first time: services are looked for when a verb needs them. */
 static int find_service(lua_State *L) {
-  static const luaL_Reg *const lists[] = {
-      own_services,         cs_services_reports,   cs_services_script,    cs_services_files,
-      cs_services_pictures, cs_services_processes, cs_services_renderers, cs_services_shown,
-      cs_services_stage,    cs_services_watchers,  cs_services_web,       NULL};
+  static const luaL_Reg *const lists[] = {own_services,
+                                          cs_services_compare,
+                                          cs_services_reports,
+                                          cs_services_script,
+                                          cs_services_files,
+                                          cs_services_pictures,
+                                          cs_services_processes,
+                                          cs_services_renderers,
+                                          cs_services_shown,
+                                          cs_services_stage,
+                                          cs_services_watchers,
+                                          cs_services_web,
+                                          NULL};
   cs_session *session = cs_service_session(L);
   if (cs_service_find(L, lists))
     return 1;

@@ -5,8 +5,8 @@
  *
  * The exposures say nothing of the size and the space of the film: program.still makes a film of
  * them for celspan's own functions, celspan.probe and celspan.pixels. What is asked of a frame's
- * scene alone is asked of the one that was built last. One file, because all functions ask these
- * two states.
+ * scene alone is asked of the one that was built last, in scene_service.c; shooting.c writes frames
+ * into files, and program/stage shows them.
  */
 #include "celspan/lua.h"
 #include "inside/colour.h"
@@ -27,11 +27,10 @@
 #include "program/film/view.h"
 #include "program/options/verbs.h"
 #include "program/outputs/outputs.h"
-#include "program/services/shooting.h"
 #include "program/stage/stage.h"
 
 typedef struct opened {
-  cs_script script;
+  cs_script script;       /* the first field, which the methods of other files take */
   cs_inspection pictures; /* the pictures that were examined */
   celspan_rostrum *held;  /* whose camera others are seen with; NULL: none. A reference */
 } opened;
@@ -231,98 +230,7 @@ static int check_tracks(lua_State *L) {
   return 1;
 }
 
-/* ---------------------------------------------------------------- scenes */
-
-/* script:scene() -> 16 bytes, equal for equal scenes; nil if a procedure draws */
-static int scene(lua_State *L) {
-  const cs_film_frame *frame = &self(L)->script.frame;
-  if (cs_scene_has_procedure(frame->exposures, frame->count))
-    return 0;
-  cs_hash hash = cs_scene_hash(frame->exposures, frame->count);
-  lua_pushlstring(L, (const char *)&hash, sizeof hash);
-  return 1;
-}
-
-/* script:pictures_key() -> 16 bytes, equal while the files of the pictures of the scene are as they
- * are now */
-static int pictures_key(lua_State *L) {
-  const cs_film_frame *frame = &self(L)->script.frame;
-  cs_hash hash = cs_walk_hash_files(frame->exposures, frame->count);
-  lua_pushlstring(L, (const char *)&hash, sizeof hash);
-  return 1;
-}
-
-/* script:cels() -> the names of the cels that the camera sees and that have one */
-static int cels(lua_State *L) {
-  const cs_film_frame *frame = &self(L)->script.frame;
-  lua_Integer count = 0;
-  lua_newtable(L);
-  for (size_t e = 0; e < frame->count; e++) {
-    const celspan_rostrum *rostrum = frame->exposures[e].rostrum;
-    for (size_t i = 0; i < rostrum->cel_count; i++)
-      if (rostrum->cels[i]->mark.name) {
-        lua_pushstring(L, cs_mark_name(rostrum->cels[i]->mark));
-        lua_rawseti(L, -2, ++count);
-      }
-  }
-  return 1;
-}
-
-/* script:counts() -> cels, primitives, pictures */
-static int counts(lua_State *L) {
-  const cs_film_frame *frame = &self(L)->script.frame;
-  celspan_rostrum_counts all = {0, 0, 0};
-  for (size_t i = 0; i < frame->count; i++) {
-    celspan_rostrum_counts one;
-    celspan_rostrum_count(frame->exposures[i].rostrum, &one);
-    all.cels += one.cels;
-    all.primitives += one.primitives;
-    all.pictures += one.pictures;
-  }
-  lua_pushinteger(L, (lua_Integer)all.cels);
-  lua_pushinteger(L, (lua_Integer)all.primitives);
-  lua_pushinteger(L, (lua_Integer)all.pictures);
-  return 3;
-}
-
-/* Calls the function that is argument 2 with a name, the kind of the value with this name, and the
- * place where it was made. */
-static void add_name(lua_State *L, const char *kind, cs_mark mark) {
-  if (!mark.name)
-    return;
-  celspan_origin origin = cs_mark_origin(mark);
-  lua_pushvalue(L, 2);
-  lua_pushstring(L, kind);
-  lua_pushstring(L, cs_mark_name(mark));
-  lua_pushstring(L, origin.line > 0 ? origin.source : NULL);
-  lua_pushinteger(L, origin.line);
-  lua_call(L, 4, 0);
-}
-
-static void add_rostrum(lua_State *L, const celspan_rostrum *rostrum);
-
-/* Recursion ends: nesting is at most CS_SCENE_DEPTH. */
-static void add_objects(lua_State *L, celspan_object *const *objects, size_t count) {
-  for (size_t i = 0; i < count; i++) {
-    const cs_primitive_data *data = objects[i]->data;
-    add_name(L, "object", objects[i]->mark);
-    if (data->texture)
-      add_name(L, "texture", data->texture->mark);
-    if (data->kind == CS_PRIMITIVE_DATA_ROSTRUM)
-      add_rostrum(L, data->rostrum);
-    else if (data->kind == CS_PRIMITIVE_DATA_BOOLEAN)
-      add_objects(L, data->boolean->operands, data->boolean->operand_count);
-  }
-}
-
-static void add_rostrum(lua_State *L, const celspan_rostrum *rostrum) {
-  add_name(L, "rostrum", rostrum->mark);
-  for (size_t i = 0; i < rostrum->cel_count; i++) {
-    const celspan_cel *cel = rostrum->cels[i];
-    add_name(L, "cel", cel->mark);
-    add_objects(L, cel->objects, cel->object_count);
-  }
-}
+/* ---------------------------------------------------------------- the state of the script */
 
 /* Runs protected. The names of a module and of a function in it, and an argument -> the result of
  * the function */
@@ -364,30 +272,6 @@ static int ask(lua_State *L) { return ask_by(L, ask_module); }
 /* script:kept(module, what, text): the same for what a private module keeps of the script; "": the
  * script does not use the module, which is not loaded for this. */
 static int kept(lua_State *L) { return ask_by(L, ask_loaded_module); }
-
-/* script:names(add): calls add(kind, name, source or nil, line) for each value that has a name. */
-static int names(lua_State *L) {
-  const cs_film_frame *frame = &self(L)->script.frame;
-  luaL_checkstack(L, 8, "too many names");
-  for (size_t i = 0; i < frame->count; i++)
-    add_rostrum(L, frame->exposures[i].rostrum);
-  return 0;
-}
-
-/* script:words(number) -> the words of a text with this number (core.parts), its em, and whether
- * the value is a letter of them; nil */
-static int words(lua_State *L) {
-  lua_State *script = self(L)->script.L;
-  cs_named_words found;
-  bool is_there = cs_named_push_words(script, (uint32_t)luaL_checkinteger(L, 2), &found);
-  if (is_there) {
-    lua_pushlstring(L, found.text, found.size);
-    lua_pushnumber(L, found.em);
-    lua_pushboolean(L, found.has_letters);
-  }
-  lua_pop(script, 1);
-  return is_there ? 3 : 0;
-}
 
 /* ---------------------------------------------------------------- pictures */
 
@@ -475,29 +359,11 @@ static int faults(lua_State *L) {
   return 0;
 }
 
-/* ---------------------------------------------------------------- renders */
-
-static int target(lua_State *L) { return cs_shooting_target(L, &self(L)->script); }
-static int shoot(lua_State *L) { return cs_shooting_run(L, &self(L)->script); }
-static int write_poster(lua_State *L) { return cs_shooting_poster(L, &self(L)->script); }
-static int key(lua_State *L) { return cs_shooting_key(L, &self(L)->script); }
-static int sounds_key(lua_State *L) { return cs_shooting_sounds_key(L, &self(L)->script); }
-static int stems(lua_State *L) { return cs_shooting_stems(L, &self(L)->script); }
-static int write_sound(lua_State *L) { return cs_shooting_sound(L, &self(L)->script); }
-
 /* ---------------------------------------------------------------- watched films */
 
-static int draw(lua_State *L) { return cs_stage_draw(L, &self(L)->script); }
-static int hits(lua_State *L) { return cs_stage_hits(L, &self(L)->script); }
-static int files(lua_State *L) { return cs_stage_files(L, &self(L)->script); }
-static int sound(lua_State *L) { return cs_stage_sound(L, &self(L)->script); }
-static int alter(lua_State *L) { return cs_stage_alter(L, &self(L)->script); }
-static int keep_line(lua_State *L) { return cs_stage_keep_line(L, &self(L)->script); }
-static int camera(lua_State *L) { return cs_stage_camera(L, &self(L)->script); }
 static int use_camera(lua_State *L) {
   return cs_stage_use_camera(L, &self(L)->script, self(L)->held);
 }
-static int costs(lua_State *L) { return cs_stage_costs(L, &self(L)->script); }
 
 /* script:hold_camera(): keeps the camera of the frame that was built last, for use_camera. */
 static int hold_camera(lua_State *L) {
@@ -522,10 +388,6 @@ static int silence(lua_State *L) {
     sandbox->guard.limits.printed = lua_toboolean(L, 2) ? NULL : cs_report_printed;
   return 0;
 }
-
-static int tree(lua_State *L) { return cs_stage_tree(L, &self(L)->script); }
-
-static int wave(lua_State *L) { return cs_stage_wave(L, &self(L)->script); }
 
 /* ---------------------------------------------------------------- the film */
 
@@ -560,31 +422,30 @@ static int describe(lua_State *L) {
   return 1;
 }
 
-static const luaL_Reg methods[] = {CS_SERVICE(build),        {"try", try_frame},
-                                   {"onion", try_onion},     CS_SERVICE(at),
-                                   CS_SERVICE(chosen),       CS_SERVICE(exposures),
-                                   CS_SERVICE(words),        CS_SERVICE(numbers),
-                                   CS_SERVICE(view_size),    CS_SERVICE(lay_onion),
-                                   CS_SERVICE(check_tracks), CS_SERVICE(scene),
-                                   CS_SERVICE(counts),       CS_SERVICE(names),
-                                   CS_SERVICE(ask),          CS_SERVICE(kept),
-                                   CS_SERVICE(faults),       CS_SERVICE(drop_warnings),
-                                   CS_SERVICE(files),        CS_SERVICE(draw),
-                                   CS_SERVICE(hits),         CS_SERVICE(alter),
-                                   CS_SERVICE(keep_line),    CS_SERVICE(keep_callers),
-                                   CS_SERVICE(silence),      CS_SERVICE(costs),
-                                   CS_SERVICE(camera),       CS_SERVICE(hold_camera),
-                                   CS_SERVICE(use_camera),   CS_SERVICE(sound),
-                                   CS_SERVICE(wave),         CS_SERVICE(tree),
-                                   CS_SERVICE(target),       CS_SERVICE(shoot),
-                                   CS_SERVICE(write_poster), CS_SERVICE(key),
-                                   CS_SERVICE(sounds_key),   CS_SERVICE(stems),
-                                   CS_SERVICE(write_sound),  CS_SERVICE(pictures_key),
-                                   CS_SERVICE(cels),         CS_SERVICE(refuse),
-                                   CS_SERVICE(captions),     {NULL, NULL}};
+static const luaL_Reg methods[] = {
+    CS_SERVICE(build),        {"try", try_frame},        {"onion", try_onion},
+    CS_SERVICE(at),           CS_SERVICE(chosen),        CS_SERVICE(exposures),
+    CS_SERVICE(numbers),      CS_SERVICE(view_size),     CS_SERVICE(lay_onion),
+    CS_SERVICE(check_tracks), CS_SERVICE(ask),           CS_SERVICE(kept),
+    CS_SERVICE(faults),       CS_SERVICE(drop_warnings), CS_SERVICE(keep_callers),
+    CS_SERVICE(silence),      CS_SERVICE(hold_camera),   CS_SERVICE(use_camera),
+    CS_SERVICE(refuse),       CS_SERVICE(captions),      {NULL, NULL}};
+
+static const luaL_Reg stage_methods[] = {{"files", cs_stage_files},
+                                         {"draw", cs_stage_draw},
+                                         {"hits", cs_stage_hits},
+                                         {"alter", cs_stage_alter},
+                                         {"keep_line", cs_stage_keep_line},
+                                         {"costs", cs_stage_costs},
+                                         {"camera", cs_stage_camera},
+                                         {"sound", cs_stage_sound},
+                                         {"wave", cs_stage_wave},
+                                         {"tree", cs_stage_tree},
+                                         {NULL, NULL}};
 
 static int find_method(lua_State *L) {
-  static const luaL_Reg *const lists[] = {methods, NULL};
+  static const luaL_Reg *const lists[] = {methods, stage_methods, cs_methods_scene,
+                                          cs_methods_shooting, NULL};
   return cs_service_find(L, lists);
 }
 

@@ -1,5 +1,11 @@
-#include "program/services/shooting.h"
-
+/* Methods of script_service.c for the frames of a film: into files, digests, or one file or stream.
+ *
+ *   target (a row of outputs.c) --> shoot (frames/film/shoot.h: build, make, copy) --> finished
+ *
+ * Which frames these are, which of them are kept, and what is reported of them is decided in Lua
+ * (verbs/render.lua). Its functions are called by the thread that builds the frames, in order. An
+ * error that they raise ends the run, and is raised again when the run has ended.
+ */
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
@@ -10,6 +16,7 @@
 #include "lua/bind/put.h"
 #include "plugins/sound/wave_file.h"
 #include "program/film/change.h"
+#include "program/film/script.h"
 #include "program/film/service.h"
 #include "program/film/soundtrack.h"
 #include "program/film/spaces.h"
@@ -304,7 +311,22 @@ static void open_run(lua_State *L, cs_script *script, run *r) {
   cs_service_require(L, view_film(script, request, &r->view));
 }
 
-int cs_shooting_run(lua_State *L, cs_script *script) {
+/* script:shoot{ row =, outlet =, path =, numbers =, played =, chapters =, captions =, keep =,
+ * finished = } -> the exit code of the run, whose failure is reported; the bytes and the hash of
+ * the file of an outlet.
+ *
+ *   keep(number, path, scene, inputs)   -> whether the file of the frame is kept, whether it shows
+ *                                       the same, its digest; scene: nil where a procedure draws
+ *   finished(number, code, how, seconds, bytes, contents, digest)
+ *                                       -> nil; 0: the frame failed, and the run continues; or the
+ *                                       exit code of the run, which ends. code: 0, or the exit
+ *                                       code of the frame, which has failed and is reported. how:
+ *                                       "made", "copied" or "kept"
+ *
+ * Hashes and digests are texts of hexadecimal digits. Without `finished`, frames are only built for
+ * `keep`, and nothing is reported. */
+static int shoot(lua_State *L) {
+  cs_script *script = cs_service_opened(L);
   run r;
   luaL_checktype(L, TARGET, LUA_TTABLE);
   open_run(L, script, &r);
@@ -320,7 +342,11 @@ int cs_shooting_run(lua_State *L, cs_script *script) {
 
 /* ---------------------------------------------------------------- the target */
 
-int cs_shooting_target(lua_State *L, const cs_script *script) {
+/* script:target(path or nil, count) -> { row =, outlet =, holds_all =, is_video = } for
+ * script:shoot, and of a video { format =, captions_form =, poster = "attached" or "beside",
+ * runs_ffmpeg = }. Ends the verb if that many frames cannot be written there. */
+static int target(lua_State *L) {
+  const cs_script *script = cs_service_opened(L);
   const cs_session *session = cs_service_session(L);
   const cs_request *request = session->request;
   const char *path = luaL_optstring(L, 2, NULL);
@@ -348,7 +374,9 @@ int cs_shooting_target(lua_State *L, const cs_script *script) {
   return 1;
 }
 
-int cs_shooting_poster(lua_State *L, cs_script *script) {
+/* script:write_poster(path) -> the exit code: writes the frame that stands for the film. */
+static int write_poster(lua_State *L) {
+  cs_script *script = cs_service_opened(L);
   const cs_request *request = cs_service_session(L)->request;
   celspan_frame_desc view;
   cs_service_require(L, view_film(script, request, &view));
@@ -358,7 +386,10 @@ int cs_shooting_poster(lua_State *L, cs_script *script) {
 
 /* ---------------------------------------------------------------- keys */
 
-int cs_shooting_key(lua_State *L, const cs_script *script) {
+/* script:key(has_view) -> a text of all that the view and the coding of the request say of a frame.
+ * has_view: frames are drawn */
+static int key(lua_State *L) {
+  const cs_script *script = cs_service_opened(L);
   const cs_request *request = cs_service_session(L)->request;
   const celspan_coding coding = cs_target_coding(request);
   const celspan_filter_desc none = CELSPAN_FILTER_DESC;
@@ -379,7 +410,9 @@ int cs_shooting_key(lua_State *L, const cs_script *script) {
   return 1;
 }
 
-int cs_shooting_sounds_key(lua_State *L, cs_script *script) {
+/* script:sounds_key() -> the hash of the sounds of the film, and of their files as they are now */
+static int sounds_key(lua_State *L) {
+  cs_script *script = cs_service_opened(L);
   cs_hash hash = cs_hash_begin(0);
   cs_service_try(L, cs_soundtrack_hash(script, &hash));
   cs_service_push_hash(L, cs_hash_end(hash));
@@ -388,7 +421,9 @@ int cs_shooting_sounds_key(lua_State *L, cs_script *script) {
 
 /* ---------------------------------------------------------------- the sound */
 
-int cs_shooting_stems(lua_State *L, cs_script *script) {
+/* script:stems() -> for each sound the name of the part of the mix that it belongs to */
+static int stems(lua_State *L) {
+  cs_script *script = cs_service_opened(L);
   cs_heard track;
   cs_service_try(L, cs_soundtrack_read(script, &track));
   lua_createtable(L, (int)track.count, 0);
@@ -409,7 +444,11 @@ static celspan_status write_wave(celspan_context *context, const char *path,
   return status;
 }
 
-int cs_shooting_sound(lua_State *L, cs_script *script) {
+/* script:write_sound{ path =, numbers =, depth = "16" or "float", stem =, gain = } -> the greatest
+ * magnitude of a sample, the gain of --loudness, the bytes of the file and their hash. Without
+ * `stem`, all sounds are heard; without `gain` it is found. Ends the verb if it fails. */
+static int write_sound(lua_State *L) {
+  cs_script *script = cs_service_opened(L);
   const cs_request *request = cs_service_session(L)->request;
   const char *path = cs_service_text(L, "path"), *stem = cs_service_text(L, "stem");
   bool is_float = strcmp(cs_service_text(L, "depth"), "float") == 0;
@@ -430,3 +469,7 @@ int cs_shooting_sound(lua_State *L, cs_script *script) {
   cs_service_push_hash(L, contents.hash);
   return 4;
 }
+
+const luaL_Reg cs_methods_shooting[] = {
+    CS_SERVICE(target),     CS_SERVICE(shoot), CS_SERVICE(write_poster), CS_SERVICE(key),
+    CS_SERVICE(sounds_key), CS_SERVICE(stems), CS_SERVICE(write_sound),  {NULL, NULL}};

@@ -250,7 +250,8 @@ static void add(stage *s, cs_script *script, const celspan_frame_desc *desc, cs_
  * alpha, as "rgba", as a "png", or as "runs"; or as "spans", the kinds of its spans in RGBA. The
  * picture is the answer to the request that stage:next() has given last. The film has no frame
  * then. */
-int cs_stage_draw(lua_State *L, cs_script *script) {
+int cs_stage_draw(lua_State *L) {
+  cs_script *script = cs_service_opened(L);
   static const char *const kinds[] = {"rgba", "png", "spans", "runs", NULL};
   celspan_frame_desc desc;
   cs_stage_kind kind = (cs_stage_kind)luaL_checkoption(L, 8, NULL, kinds);

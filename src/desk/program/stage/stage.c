@@ -9,7 +9,6 @@
 #include "inside/sinks.h"
 #include "lua/bind/host.h"
 #include "process/interrupt.h"
-#include "program/film/service.h"
 
 #define PIXELS_MOST (1 << 25) /* of a picture in memory */
 
@@ -274,8 +273,8 @@ static int join_asked(lua_State *L) {
 
 /* film:files() -> the paths that the script has asked for since the last call, each ended by a
  * zero; before each there is "+" if the script was allowed to read it, and otherwise "-" */
-int cs_stage_files(lua_State *L, cs_script *of) {
-  lua_State *script = of->L;
+int cs_stage_files(lua_State *L) {
+  lua_State *script = ((cs_script *)cs_service_opened(L))->L;
   lua_pushcfunction(script, join_asked);
   if (lua_pcall(script, 0, 1, 0) != LUA_OK)
     lua_pushliteral(L, "");

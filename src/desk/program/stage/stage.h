@@ -1,6 +1,6 @@
 /* The answers of a film that is being watched (celspan watch): pictures and sounds in memory, the
  * objects at a point, the costs of cels, and the files that it reads. They are methods of a film in
- * Lua, which is not passed. */
+ * Lua. */
 #pragma once
 
 #include <lua.h>
@@ -8,6 +8,7 @@
 #include "inside/png.h"
 #include "inside/scene.h"
 #include "program/film/script.h"
+#include "program/film/service.h"
 
 /* Reads which part of the frame that was built last is wanted: the size of the frame, and a crop of
  * it, as six numbers from index 2 on. false: the crop is outside of the frame, or has too many
@@ -44,15 +45,15 @@ const char *cs_stage_label(const celspan_rostrum *rostrum, size_t i, char label[
 /* The shot that a cel of a frame of a cut shows, if it shows nothing else; NULL: none. Borrowed. */
 celspan_rostrum *cs_stage_part(const celspan_cel *cel);
 
-int cs_stage_draw(lua_State *L, cs_script *script);
-int cs_stage_hits(lua_State *L, cs_script *script);
-int cs_stage_tree(lua_State *L, const cs_script *script);
-int cs_stage_files(lua_State *L, cs_script *script);
-int cs_stage_sound(lua_State *L, cs_script *script);
-int cs_stage_wave(lua_State *L, cs_script *script);
-int cs_stage_alter(lua_State *L, cs_script *script);
-int cs_stage_keep_line(lua_State *L, cs_script *script);
-int cs_stage_costs(lua_State *L, cs_script *script);
-int cs_stage_camera(lua_State *L, cs_script *script);
+int cs_stage_draw(lua_State *L);
+int cs_stage_hits(lua_State *L);
+int cs_stage_tree(lua_State *L);
+int cs_stage_files(lua_State *L);
+int cs_stage_sound(lua_State *L);
+int cs_stage_wave(lua_State *L);
+int cs_stage_alter(lua_State *L);
+int cs_stage_keep_line(lua_State *L);
+int cs_stage_costs(lua_State *L);
+int cs_stage_camera(lua_State *L);
 /* by: the frame whose camera is used. */
 int cs_stage_use_camera(lua_State *L, cs_script *script, const celspan_rostrum *by);

@@ -129,7 +129,8 @@ static celspan_status alter_cel(void *user, const celspan_rostrum *from, size_t 
 /* film:alter(letters, is_cut) -> true | nil, message. letters.ground, for example, changes the cel
  * with this label (stage_tree.c): h: the cel is hidden; l: its lights are replaced by white light;
  * f: it is in focus */
-int cs_stage_alter(lua_State *L, cs_script *script) {
+int cs_stage_alter(lua_State *L) {
+  cs_script *script = cs_service_opened(L);
   alteration a = {L, script->context, lua_toboolean(L, 3)};
   luaL_checktype(L, 2, LUA_TTABLE);
   luaL_checkstack(L, 4, "too many values");
@@ -143,7 +144,8 @@ int cs_stage_alter(lua_State *L, cs_script *script) {
 
 /* film:camera() -> the camera of the frame that was built last, as a text that is equal for equal
  * cameras; "none" without a camera */
-int cs_stage_camera(lua_State *L, cs_script *script) {
+int cs_stage_camera(lua_State *L) {
+  cs_script *script = cs_service_opened(L);
   char text[128] = "none";
   const celspan_rostrum *r = script->frame.count ? script->frame.exposures[0].rostrum : NULL;
   if (r && (r->has_camera_centre || r->has_camera_width || r->camera_rotation != 0))
@@ -262,7 +264,8 @@ static celspan_status keep_made(void *user, const celspan_rostrum *from, size_t 
 /* film:keep_line(source, line, name or nil, label or nil) -> whether the line made anything in the
  * frame that was built last, of that name and in the cel of that label, which then shows only these
  * objects, in white light | nil, message */
-int cs_stage_keep_line(lua_State *L, cs_script *script) {
+int cs_stage_keep_line(lua_State *L) {
+  cs_script *script = cs_service_opened(L);
   made m = {.context = script->context,
             .source = luaL_checkstring(L, 2),
             .line = (int32_t)luaL_checkinteger(L, 3),
@@ -331,7 +334,8 @@ static void give_cost(lua_State *L, const char *name, cs_mark mark, const cost *
 /* film:costs(width, height, x, y, w, h, add) -> true | nil, message: calls add with the costs of
  * this part of the whole frame, then with the costs of each cel of its first exposure alone, for at
  * most CELS_MOST cels. */
-int cs_stage_costs(lua_State *L, cs_script *script) {
+int cs_stage_costs(lua_State *L) {
+  cs_script *script = cs_service_opened(L);
   celspan_frame_desc desc;
   cost c;
   if (!cs_stage_frame(L, script, &desc))

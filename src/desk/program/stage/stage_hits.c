@@ -179,7 +179,8 @@ static celspan_status search_exposure(search *s, size_t i) {
  * share: of its shot in the frame. file and line: nil if they are not known. light: of a cel, red,
  * green and blue, or "texture". paint: of an object at the point, in white light; form: "fill" or
  * "stroke" of an outline. x, y: film units. */
-int cs_stage_hits(lua_State *L, cs_script *script) {
+int cs_stage_hits(lua_State *L) {
+  cs_script *script = cs_service_opened(L);
   search s = {.L = L,
               .context = script->context,
               .script = script,

@@ -51,7 +51,8 @@ static celspan_status put_bytes(void *user, celspan_context *context, const void
 
 /* film:sound(first, count) -> the mix of these frames as the bytes of a WAV file of 16 bits | nil,
  * message */
-int cs_stage_sound(lua_State *L, cs_script *script) {
+int cs_stage_sound(lua_State *L) {
+  cs_script *script = cs_service_opened(L);
   int64_t moments;
   double peak, count = (double)luaL_checkinteger(L, 3);
   if (count > SECONDS_MOST * script->film.frames_second)
@@ -100,7 +101,8 @@ static celspan_status read_wave(celspan_context *context, const cs_sound_stream 
 
 /* film:wave(first, count, columns) -> a byte for each column: the amplitude of the mix of these
  * frames, from silence, 0, to full scale, 255 | nil, message */
-int cs_stage_wave(lua_State *L, cs_script *script) {
+int cs_stage_wave(lua_State *L) {
+  cs_script *script = cs_service_opened(L);
   wave w = {.count = luaL_checkinteger(L, 4)};
   luaL_argcheck(L, w.count > 0 && w.count <= COLUMNS_MOST, 4, "out of range");
   const cs_sound_stream *mix = push_mix(L, script, &w.moments);

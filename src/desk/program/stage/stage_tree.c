@@ -122,7 +122,8 @@ static bool walk_outer(walk *w, const celspan_rostrum *rostrum) {
  * label or nil, exposure) for each cel of the frame that was built last, and for each object in it
  * that has a name, from front to back. If add returns true, the parts of the row follow, which are
  * one deeper. At most `most` rows. */
-int cs_stage_tree(lua_State *L, const cs_script *script) {
+int cs_stage_tree(lua_State *L) {
+  const cs_script *script = cs_service_opened(L);
   walk w = {.L = L, .left = luaL_checkinteger(L, 2), .is_cut = lua_toboolean(L, 3)};
   luaL_checkstack(L, 10, "too many objects");
   for (size_t i = 0; i < script->frame.count; i++) {

@@ -34,7 +34,7 @@ local failed, done = {}, { made = 0, copied = 0, kept = 0 }
 
 local function count_done() return done.made + done.copied + done.kept end
 
---- Called for each frame: see services/shooting.h.
+--- Called for each frame: see services/shooting.c.
 function target.finished(number, code, how, seconds, bytes, contents, digest)
   if code == 0 and record and how ~= "kept" and not target.holds_all then
     local good, message = record.add(number, bytes, contents, digest)
