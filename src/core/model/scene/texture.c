@@ -1,25 +1,15 @@
-/* Textures as values: what they are made of, checked, hashed and copied. One file, because all
- * kinds are one structure. */
+/* Textures as values: checked, hashed and copied. */
 #include "model/scene/texture.h"
 
-#include <math.h>
 #include <string.h>
 
 #include "base/description.h"
-#include "base/elementary.h"
 #include "base/self_check.h"
 #include "model/colour/space.h"
 #include "model/pictures/store.h"
 #include "model/pictures/surface.h"
 #include "model/scene/check.h"
 #include "model/scene/value.h"
-
-/* Twice the area of a triangle below this share of its longest side squared is rounding. */
-#define FLAT_TRIANGLE 1e-12
-/* A focus lies inside its circle: at most so far from the centre, as a share of the radius. */
-#define FOCUS_SHARE 0.9999
-
-#define TURN 6.283185307179586
 
 static const cs_texture_variation no_variation = {.stop_count = 0};
 
@@ -107,7 +97,7 @@ static cs_hash hash_texture(const celspan_texture *texture) {
 
 void cs_texture_rehash(celspan_texture *texture) { texture->hash = hash_texture(texture); }
 
-static celspan_status finish(celspan_texture *texture, celspan_texture **out) {
+celspan_status cs_texture_finish(celspan_texture *texture, celspan_texture **out) {
   texture->hash = hash_texture(texture);
   *out = texture;
   return CELSPAN_OK;
@@ -118,11 +108,11 @@ static celspan_status create_flat(celspan_context *context, const cs_paint *pain
   celspan_texture *texture = NULL;
   CS_TRY(cs_texture_create_kind(context, CS_TEXTURE_FLAT, &texture));
   texture->flat = *paint;
-  return finish(texture, out);
+  return cs_texture_finish(texture, out);
 }
 
-static celspan_status create_flat_straight(celspan_context *context, const celspan_paint *paint,
-                                           celspan_texture **out) {
+celspan_status cs_texture_create_flat(celspan_context *context, const celspan_paint *paint,
+                                      celspan_texture **out) {
   cs_paint flat = cs_paint_from_straight(paint);
   return create_flat(context, &flat, out);
 }
@@ -131,158 +121,16 @@ celspan_status celspan_texture_create_paint(celspan_context *context, const cels
                                             celspan_texture **out) {
   CS_TRY(cs_check_given(context, "paint", "the paint", paint));
   CS_TRY(cs_check_paint(context, "paint", "", 0, paint));
-  return create_flat_straight(context, paint, out);
+  return cs_texture_create_flat(context, paint, out);
 }
 
 celspan_status cs_texture_or_black(celspan_context *context, celspan_texture *texture,
                                    celspan_texture **out) {
   const celspan_paint black = celspan_paint_rgb(0, 0, 0, 1);
   if (!texture)
-    return create_flat_straight(context, &black, out);
+    return cs_texture_create_flat(context, &black, out);
   *out = celspan_texture_ref(texture);
   return CELSPAN_OK;
-}
-
-/* ---------------------------------------------------------------- gradients */
-
-static double square(double x) { return x * x; }
-
-static double distance_squared(celspan_point a, celspan_point b) {
-  return square(a.x - b.x) + square(a.y - b.y);
-}
-
-static bool triangle_is_flat(const celspan_point p[3]) {
-  double area = (p[1].x - p[0].x) * (p[2].y - p[0].y) - (p[2].x - p[0].x) * (p[1].y - p[0].y);
-  double longest = distance_squared(p[0], p[1]);
-  longest = fmax(longest, distance_squared(p[1], p[2]));
-  longest = fmax(longest, distance_squared(p[2], p[0]));
-  return fabs(area) <= FLAT_TRIANGLE * longest;
-}
-
-celspan_status celspan_texture_create_gradient(celspan_context *context,
-                                               const celspan_point points[3],
-                                               const celspan_paint paints[3],
-                                               celspan_texture **out) {
-  CS_TRY(cs_check_given(context, "gradient", "points", points));
-  CS_TRY(cs_check_given(context, "gradient", "paints", paints));
-  for (size_t i = 0; i < 3; i++) {
-    CS_TRY(cs_check_point(context, "gradient", "points", i + 1, points[i]));
-    CS_TRY(cs_check_paint(context, "gradient", "paints", i + 1, &paints[i]));
-  }
-  if (triangle_is_flat(points))
-    return create_flat_straight(context, &paints[2], out);
-  celspan_texture *texture = NULL;
-  CS_TRY(cs_texture_create_kind(context, CS_TEXTURE_TRIANGLE, &texture));
-  for (int i = 0; i < 3; i++) {
-    cs_texture_own(texture)->points[i] = points[i];
-    cs_texture_own(texture)->corners[i] = cs_paint_from_straight(&paints[i]);
-  }
-  return finish(texture, out);
-}
-
-static celspan_status check_stops(celspan_context *context, const char *noun,
-                                  const celspan_stop *stops, size_t count) {
-  if (!stops || count == 0)
-    return cs_fail(context, CELSPAN_BAD_ARGUMENT, "%s: there is no stop; it needs one or more",
-                   noun);
-  CS_TRY(cs_check_list(context, noun, "stops", stops, count, CS_CHECK_ITEMS));
-  for (size_t i = 0; i < count; i++) {
-    CS_TRY(cs_check_item(context, (cs_check_field){noun, "stops", i + 1, "at"}, stops[i].at, 0, 1));
-    if (i > 0 && stops[i].at < stops[i - 1].at)
-      return cs_fail(context, CELSPAN_BAD_ARGUMENT,
-                     "%s: stops[%zu].at is %s, less than %s of the stop before; stops must ascend",
-                     noun, i + 1, cs_check_number_text(stops[i].at).text,
-                     cs_check_number_text(stops[i - 1].at).text);
-    CS_TRY(cs_check_paint(context, noun, "stops", i + 1, &stops[i].paint));
-  }
-  return CELSPAN_OK;
-}
-
-celspan_status cs_texture_create_stops(celspan_context *context, const char *noun,
-                                       cs_texture_kind kind, const celspan_stop *stops,
-                                       size_t count, bool is_degenerate, celspan_texture **out) {
-  CS_TRY(check_stops(context, noun, stops, count));
-  if (is_degenerate || count == 1)
-    return create_flat_straight(context, &stops[count - 1].paint, out);
-  celspan_texture *texture = NULL;
-  CS_TRY(cs_texture_create_kind(context, kind, &texture));
-  cs_texture_variation *variation = cs_texture_own(texture);
-  variation->stops = cs_mem_array(context->memory, count, sizeof *variation->stops);
-  if (!variation->stops) {
-    celspan_texture_unref(texture);
-    return cs_fail_memory(context);
-  }
-  variation->stop_count = count;
-  for (size_t i = 0; i < count; i++)
-    variation->stops[i] = (cs_stop){stops[i].at, cs_paint_from_straight(&stops[i].paint)};
-  *out = texture;
-  return CELSPAN_OK;
-}
-
-celspan_status celspan_texture_create_linear(celspan_context *context, celspan_point from,
-                                             celspan_point to, const celspan_stop *stops,
-                                             size_t stop_count, celspan_texture **out) {
-  CS_TRY(cs_check_point(context, "linear", "from", 0, from));
-  CS_TRY(cs_check_point(context, "linear", "to", 0, to));
-  celspan_texture *texture = NULL;
-  CS_TRY(cs_texture_create_stops(context, "linear", CS_TEXTURE_LINEAR, stops, stop_count,
-                                 !(distance_squared(from, to) > 0), &texture));
-  if (texture->kind == CS_TEXTURE_LINEAR) {
-    cs_texture_own(texture)->points[0] = from;
-    cs_texture_own(texture)->points[1] = to;
-  }
-  return finish(texture, out);
-}
-
-/* The vector from the centre to the focus, limited to the inside of the circle. */
-static celspan_point focus_offset(celspan_point centre, double radius, celspan_point focus) {
-  celspan_point offset = {focus.x - centre.x, focus.y - centre.y};
-  double distance = sqrt(square(offset.x) + square(offset.y)), most = FOCUS_SHARE * radius;
-  double share = distance > most ? most / distance : 1;
-  return (celspan_point){share * offset.x, share * offset.y};
-}
-
-celspan_status celspan_texture_create_radial(celspan_context *context, celspan_point centre,
-                                             double radius, const celspan_stop *stops,
-                                             size_t stop_count, celspan_texture **out) {
-  return celspan_texture_create_focal(context, centre, radius, centre, stops, stop_count, out);
-}
-
-celspan_status celspan_texture_create_focal(celspan_context *context, celspan_point centre,
-                                            double radius, celspan_point focus,
-                                            const celspan_stop *stops, size_t stop_count,
-                                            celspan_texture **out) {
-  CS_TRY(cs_check_point(context, "radial", "centre", 0, centre));
-  CS_TRY(cs_check_size(context, "radial", "radius", radius));
-  CS_TRY(cs_check_point(context, "radial", "focus", 0, focus));
-  celspan_texture *texture = NULL;
-  CS_TRY(cs_texture_create_stops(context, "radial", CS_TEXTURE_RADIAL, stops, stop_count,
-                                 !(radius > 0), &texture));
-  if (texture->kind == CS_TEXTURE_RADIAL) {
-    cs_texture_variation *variation = cs_texture_own(texture);
-    variation->points[0] = centre;
-    variation->points[1] = focus_offset(centre, radius, focus);
-    variation->radius = radius;
-  }
-  return finish(texture, out);
-}
-
-celspan_status celspan_texture_create_conic(celspan_context *context, celspan_point centre,
-                                            double angle, const celspan_stop *stops,
-                                            size_t stop_count, celspan_texture **out) {
-  CS_TRY(cs_check_point(context, "conic", "centre", 0, centre));
-  CS_TRY(cs_check_number(context, "conic", "angle", angle));
-  celspan_texture *texture = NULL;
-  CS_TRY(cs_texture_create_stops(context, "conic", CS_TEXTURE_CONIC, stops, stop_count, false,
-                                 &texture));
-  if (texture->kind == CS_TEXTURE_CONIC) {
-    cs_texture_variation *variation = cs_texture_own(texture);
-    double sine, cosine;
-    cs_elementary_sincos(fmod(angle, TURN), &sine, &cosine);
-    variation->points[0] = centre;
-    variation->points[1] = (celspan_point){sine, -cosine};
-  }
-  return finish(texture, out);
 }
 
 /* ---------------------------------------------------------------- pictures */
@@ -327,7 +175,7 @@ celspan_status celspan_texture_create_picture(celspan_context *context,
     if (desc->has_box)
       variation->box = desc->box;
   }
-  return finish(texture, out);
+  return cs_texture_finish(texture, out);
 }
 
 /* ---------------------------------------------------------------- media */
@@ -341,7 +189,7 @@ celspan_status cs_texture_copy_medium(celspan_context *context, const celspan_te
   if (variation->medium)
     cs_picture_unref(variation->medium);
   variation->medium = medium ? cs_picture_ref(medium) : NULL;
-  return finish(copy, out);
+  return cs_texture_finish(copy, out);
 }
 
 celspan_status celspan_texture_with_medium(celspan_context *context, celspan_texture *texture,
@@ -360,38 +208,21 @@ celspan_status celspan_texture_with_medium(celspan_context *context, celspan_tex
   return status;
 }
 
-/* ---------------------------------------------------------------- lights */
+/* ---------------------------------------------------------------- other paints */
 
-static cs_paint light_paint(const cs_paint *paint) {
-  cs_paint light = *paint;
+static cs_paint light_paint(cs_paint paint) {
   for (int c = 0; c < 3; c++)
-    light.t[c] = 1 - paint->beta;
-  return light;
+    paint.t[c] = 1 - paint.beta;
+  return paint;
 }
 
-static celspan_status copy_stops(celspan_context *context, const cs_texture_variation *from,
-                                 cs_texture_variation *to) {
-  CS_TRY(CS_MAKE(context, to->stops, from->stop_count));
-  to->stop_count = from->stop_count;
-  for (size_t i = 0; i < from->stop_count; i++)
-    to->stops[i] = (cs_stop){from->stops[i].at, light_paint(&from->stops[i].paint)};
-  return CELSPAN_OK;
-}
+static cs_paint coded_paint(cs_paint paint) { return cs_space_paint(CELSPAN_SPACE_SRGB, paint); }
 
-/* Errors: NO_MEMORY. */
-static celspan_status fill_light(celspan_context *context, const cs_texture_variation *from,
-                                 cs_texture_variation *to) {
-  to->radius = from->radius;
-  to->noise = from->noise;
-  to->spread = from->spread;
-  to->has_matrix = from->has_matrix;
-  to->matrix = from->matrix;
-  to->inverse = from->inverse;
-  for (int i = 0; i < 3; i++) {
-    to->points[i] = from->points[i];
-    to->corners[i] = light_paint(&from->corners[i]);
-  }
-  return from->stop_count > 0 ? copy_stops(context, from, to) : CELSPAN_OK;
+static void map_paints(cs_texture_variation *variation, cs_paint (*map)(cs_paint paint)) {
+  for (int i = 0; i < 3; i++)
+    variation->corners[i] = map(variation->corners[i]);
+  for (size_t i = 0; i < variation->stop_count; i++)
+    variation->stops[i].paint = map(variation->stops[i].paint);
 }
 
 celspan_status cs_texture_create_light(celspan_context *context, celspan_texture *texture,
@@ -406,29 +237,25 @@ celspan_status cs_texture_create_light(celspan_context *context, celspan_texture
     *out = celspan_texture_ref(texture);
     return CELSPAN_OK;
   }
-  CS_TRY(cs_texture_create_kind(context, texture->kind, &light));
-  light->flat = light_paint(&texture->flat);
-  if (light->kind != CS_TEXTURE_FLAT &&
-      fill_light(context, texture->variation, cs_texture_own(light)) != CELSPAN_OK) {
-    celspan_texture_unref(light);
-    return CELSPAN_NO_MEMORY;
+  CS_TRY(cs_texture_copy(context, texture, texture->variation->stop_count, cs_mark_now(context),
+                         &light));
+  light->flat = light_paint(light->flat);
+  if (light->kind != CS_TEXTURE_FLAT) {
+    cs_texture_variation *variation = cs_texture_own(light);
+    celspan_texture_unref(variation->origin); /* it has other paints */
+    variation->origin = NULL;
+    map_paints(variation, light_paint);
   }
-  return finish(light, out);
+  return cs_texture_finish(light, out);
 }
-
-/* ---------------------------------------------------------------- codes */
 
 celspan_status cs_texture_create_coded(celspan_context *context, const celspan_texture *texture,
                                        celspan_texture **out) {
   celspan_texture *coded;
   CS_TRY(cs_texture_copy(context, texture, texture->variation->stop_count,
                          cs_mark_keep(texture->mark), &coded));
-  cs_texture_variation *variation = cs_texture_own(coded);
-  for (int i = 0; i < 3; i++)
-    variation->corners[i] = cs_space_paint(CELSPAN_SPACE_SRGB, variation->corners[i]);
-  for (size_t i = 0; i < variation->stop_count; i++)
-    variation->stops[i].paint = cs_space_paint(CELSPAN_SPACE_SRGB, variation->stops[i].paint);
-  return finish(coded, out);
+  map_paints(cs_texture_own(coded), coded_paint);
+  return cs_texture_finish(coded, out);
 }
 
 /* ---------------------------------------------------------------- questions */
@@ -516,7 +343,7 @@ celspan_status cs_texture_boxed(celspan_context *context, celspan_texture *textu
   variation->box = *box;
   if (variation->wrap == CELSPAN_WRAP_CLEAR)
     variation->wrap = CELSPAN_WRAP_CLAMP;
-  return finish(boxed, out);
+  return cs_texture_finish(boxed, out);
 }
 
 celspan_status celspan_texture_named(celspan_context *context, celspan_texture *texture,

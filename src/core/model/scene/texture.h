@@ -121,6 +121,12 @@ CELSPAN_CHECKED celspan_status cs_texture_boxed(celspan_context *context, celspa
                                                 const celspan_box *box, celspan_texture **out);
 /* Must be called after a copy was changed. */
 void cs_texture_rehash(celspan_texture *texture);
+/* The end of making a texture: rehashes it. */
+celspan_status cs_texture_finish(celspan_texture *texture, celspan_texture **out);
+/* *out: new. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_texture_create_flat(celspan_context *context,
+                                                      const celspan_paint *paint,
+                                                      celspan_texture **out);
 
 /* Whether every colour of the texture lets the three channels through alike. A picture is grey
  * unless it is a gel or has a medium. */
