@@ -70,7 +70,7 @@ static void check_even(celspan_context *context, test_random *random) {
     CHECK(cs_defocus_band_add(&grid, context, &row, &bands[i]) == CELSPAN_OK);
     cs_defocus_band_end(&grid, context->memory, &bands[i]);
   }
-  const cs_defocused_polyline *a = &bands[0].polyline, *b = &bands[1].polyline;
+  const cs_node_polyline *a = &bands[0].polyline, *b = &bands[1].polyline;
   if (CHECK(a->count == b->count && a->at[a->count - 1] == n.count - 1)) {
     CHECK(memcmp(a->at, b->at, a->count * sizeof *a->at) == 0);
     CHECK(memcmp(a->values, b->values, a->count * (size_t)grid.planes * sizeof *a->values) == 0);

@@ -1,214 +1,21 @@
-/* One file, because polylines, bands and rows are three steps over the same nodes. */
 #include "engine/sample/defocused.h"
+
+#include <math.h>
 
 #include "base/number.h"
 #include "base/wide.h"
 
-#include <math.h>
-
-/* How far a line between vertices may be from the nodes: half the tolerance of other lines. */
-#define TOLERANCE (0.25f / 1023)
-#define CONSTANT 3 /* this many equal neighbouring nodes become a line of their own */
 /* Nodes behind all others: loops over samples may read a register beyond them. */
 #define BEYOND (CS_WIDE_LINE / sizeof(cs_v4))
 
 static const cs_v4 colours = {1, 1, 1, 0};
-
-/* ---------------------------------------------------------------- polylines */
-
-/* The constant stretch that was looked for last, since it is asked for several times. */
-typedef struct stretch {
-  int32_t from, end;
-} stretch;
-
-typedef struct node_row {
-  const float (*planes[2])[4]; /* nodes */
-  const bool *even;            /* as in cs_defocused_nodes */
-  int plane_count;
-  int32_t last; /* node */
-  stretch *found;
-  /* every node is a pixel: a line may end in one node, and the next line begin in the next node */
-  bool is_split;
-} node_row;
-
-static void free_polyline(cs_defocused_polyline *polyline, cs_memory *memory) {
-  cs_mem_free(memory, polyline->at, polyline->at_capacity * sizeof *polyline->at);
-  cs_mem_free(memory, polyline->values, polyline->value_capacity * sizeof *polyline->values);
-  cs_mem_free(memory, polyline->constant, polyline->constant_capacity * sizeof *polyline->constant);
-  *polyline = (cs_defocused_polyline){0};
-}
-
-static void add_vertex(const node_row *row, int32_t i, cs_defocused_polyline *out) {
-  float(*values)[4] = out->values + out->count * (size_t)row->plane_count;
-  for (int plane = 0; plane < row->plane_count; plane++)
-    memcpy(values[plane], row->planes[plane][i], sizeof *values);
-  out->at[out->count++] = i;
-}
-
-static inline bool is_constant(const node_row *row, int planes, int32_t i) {
-  for (int plane = 0; plane < planes; plane++)
-    if (!cs_v4_same(cs_v4_load(row->planes[plane][i]), cs_v4_load(row->planes[plane][i + 1])))
-      return false;
-  return true;
-}
-
-/* The last node of the even group that begins with node i; i where none does. */
-static inline int32_t even_end(const node_row *row, int32_t i) {
-  if ((uint32_t)i % CS_DEFOCUSED_GROUP != 0 || !row->even ||
-      !row->even[(uint32_t)i / CS_DEFOCUSED_GROUP])
-    return i;
-  int32_t end = i + CS_DEFOCUSED_GROUP - 1;
-  return end < row->last ? end : row->last;
-}
-
-/* Whether a constant stretch may begin with node i. */
-static inline bool may_be_constant(const node_row *row, int planes, int32_t i) {
-  return even_end(row, i) > i || is_constant(row, planes, i);
-}
-
-static inline int32_t same_until(const node_row *row, int planes, int32_t i) {
-  int32_t end = even_end(row, i);
-  while (end < row->last && is_constant(row, planes, end))
-    end = even_end(row, end + 1);
-  return end;
-}
-
-/* The last node of the constant stretch from i on; i where it is too short to count. */
-static int32_t constant_end(const node_row *row, int32_t i) {
-  stretch *found = row->found;
-  if (found->from == i)
-    return found->end;
-  int32_t end = row->plane_count == 1 ? same_until(row, 1, i) : same_until(row, 2, i);
-  *found = (stretch){i, end - i >= CONSTANT || end == row->last ? end : i};
-  return found->end;
-}
-
-/* The slopes that a line from a node on may have, so that it is near every node after it:
- *
- *     value                   . most
- *       |               . - '
- *       |         . - '  |               o  a node, and above and below it
- *       |    . ' |       o               |  how far a line may pass from it
- *       |  o     o       |
- *       |    ` . |                   each node narrows the slopes; the line ends at the
- *       |         ` - .              last node whose own slope is still among them
- *       |               ` - . least
- *       +--+-----+-------+-----> node
- */
-typedef struct swing {
-  cs_v4 least[2], most[2];
-} swing;
-
-/* Whether the line from node `from` to another node is near all nodes between them. If so, narrows
- * the range of slopes by the other node. across: the distance between the two nodes. */
-static inline bool swing_admits(swing *s, const node_row *row, int planes, int32_t from,
-                                int32_t across) {
-  float scale = 1 / (float)across;
-  cs_v4 slack = cs_v4_all(TOLERANCE * scale);
-  for (int plane = 0; plane < planes; plane++) {
-    const float(*start)[4] = row->planes[plane] + from;
-    cs_v4 slope = (cs_v4_load(start[across]) - cs_v4_load(start[0])) * scale;
-    if (!cs_v4_is_between(slope, s->least[plane], s->most[plane]))
-      return false;
-    s->least[plane] = cs_v4_max(s->least[plane], slope - slack);
-    s->most[plane] = cs_v4_min(s->most[plane], slope + slack);
-  }
-  return true;
-}
-
-/* The last node that a line from `from` may end at, or the first before it at which a constant
- * stretch begins. */
-static inline int32_t swing_to(const node_row *row, int planes, int32_t from) {
-  swing s = {{cs_v4_all(-INFINITY), cs_v4_all(-INFINITY)},
-             {cs_v4_all(INFINITY), cs_v4_all(INFINITY)}};
-  for (int32_t i = from + 1; i <= row->last; i++) {
-    if (!swing_admits(&s, row, planes, from, i - from))
-      return i - 1;
-    if (i < row->last && may_be_constant(row, planes, i) && constant_end(row, i) > i)
-      return i;
-  }
-  return row->last;
-}
-
-/* The loop for one plane is nearly all of the time that is spent on rows of nodes. */
-static int32_t swing_end(const node_row *row, int32_t from) {
-  return row->plane_count == 1 ? swing_to(row, 1, from) : swing_to(row, 2, from);
-}
-
-/* By how much the sum of the nodes between two nodes grows when a line takes their place. */
-static cs_v4 light_added(const node_row *row, int plane, int32_t from, int32_t to) {
-  if (to - from == 1)
-    return cs_v4_all(0);
-  const float(*nodes)[4] = row->planes[plane];
-  cs_v4 sum = cs_v4_all(0), ends = cs_v4_load(nodes[from]) + cs_v4_load(nodes[to]);
-  for (int32_t i = from + 1; i < to; i++)
-    sum += cs_v4_load(nodes[i]);
-  return ends * (0.5f * (float)(to - from - 1)) - sum;
-}
-
-/* Whether a vertex keeps its value: at the ends of the row, and beside constant stretches. */
-static bool is_fixed(const cs_defocused_polyline *polyline, size_t first, size_t k) {
-  return k == first || k + 1 == polyline->count || polyline->constant[k - first] ||
-         polyline->constant[k - first - 1];
-}
-
-/* Lines between nodes lie above a hollow and below a hill of the nodes between them. So that the
- * row keeps its light, the light that a line adds is subtracted from the values of its ends: half
- * from each, or all from one end if only this end may change. first: the first of the row's
- * vertices. */
-static void balance(const node_row *row, cs_defocused_polyline *polyline, size_t first) {
-  size_t planes = (size_t)row->plane_count;
-  for (size_t p = 0; p < planes; p++) {
-    cs_v4 owed = cs_v4_all(0); /* to be subtracted for the line that ends in the vertex */
-    bool moves_next = false;
-    for (size_t k = first; k + 1 < polyline->count; k++) {
-      bool moves = moves_next;
-      moves_next = !is_fixed(polyline, first, k + 1);
-      cs_v4 added = polyline->constant[k - first]
-                        ? cs_v4_all(0)
-                        : light_added(row, (int)p, polyline->at[k], polyline->at[k + 1]);
-      cs_v4 here = moves_next ? 0.5f * added : added;
-      if (moves) {
-        float *value = polyline->values[k * planes + p];
-        float wide = 0.5f * (float)(polyline->at[k + 1] - polyline->at[k - 1]);
-        cs_v4_store(value, cs_v4_bounded(cs_v4_load(value) - (owed + here) * (1 / wide)));
-      }
-      owed = moves ? added - here : added;
-    }
-  }
-}
-
-/* Appends the vertices of a row. */
-static celspan_status add_row(celspan_context *context, node_row *row, cs_defocused_polyline *out) {
-  stretch found = {-1, -1};
-  row->found = &found;
-  size_t first = out->count, limit = first + (size_t)row->last + 1;
-  CS_TRY(CS_RESERVE(context, out->at, out->at_capacity, limit));
-  CS_TRY(CS_RESERVE(context, out->values, out->value_capacity, limit * (size_t)row->plane_count));
-  CS_TRY(CS_RESERVE(context, out->constant, out->constant_capacity, (size_t)row->last + 1));
-  add_vertex(row, 0, out);
-  for (int32_t i = 0; i < row->last;) {
-    int32_t end = constant_end(row, i);
-    out->constant[out->count - 1 - first] = end > i;
-    i = end > i ? end : swing_end(row, i);
-    add_vertex(row, i, out);
-    if (row->is_split && !out->constant[out->count - 2 - first] && i + 1 < row->last &&
-        constant_end(row, i) == i) {
-      out->constant[out->count - 1 - first] = false;
-      add_vertex(row, ++i, out);
-    }
-  }
-  out->constant[out->count - 1 - first] = false;
-  balance(row, out, first);
-  return CELSPAN_OK;
-}
 
 /* ---------------------------------------------------------------- bands */
 
 void cs_defocus_band_free(cs_defocus_band *band, cs_memory *memory) {
   cs_mem_free(memory, band->nodes, band->node_count * sizeof *band->nodes);
   cs_mem_free(memory, band->rows, band->row_capacity * sizeof *band->rows);
-  free_polyline(&band->polyline, memory);
+  cs_node_row_free(&band->polyline, memory);
   *band = (cs_defocus_band){0};
 }
 
@@ -225,11 +32,11 @@ static const float (*band_row(const cs_defocused *defocused, const cs_defocus_ba
   return (const float(*)[4])band->nodes + at * (size_t)defocused->columns;
 }
 
-static node_row band_nodes(const cs_defocused *defocused, const cs_defocus_band *band,
-                           int32_t row) {
-  node_row out = {.plane_count = defocused->planes,
-                  .last = defocused->columns - 1,
-                  .is_split = defocused->pitch_x == 1};
+static cs_node_row band_nodes(const cs_defocused *defocused, const cs_defocus_band *band,
+                              int32_t row) {
+  cs_node_row out = {.plane_count = defocused->planes,
+                     .last = defocused->columns - 1,
+                     .is_split = defocused->pitch_x == 1};
   for (int plane = 0; plane < defocused->planes; plane++)
     out.planes[plane] = band_row(defocused, band, plane, row);
   return out;
@@ -266,18 +73,18 @@ celspan_status cs_defocus_band_begin(celspan_context *context, int32_t rows,
 
 celspan_status cs_defocus_band_add(const cs_defocused *defocused, celspan_context *context,
                                    const cs_defocused_nodes *nodes, cs_defocus_band *band) {
-  node_row row = {.planes = {nodes->planes[0], nodes->planes[1]},
-                  .even = nodes->even,
-                  .plane_count = defocused->planes,
-                  .last = defocused->columns - 1,
-                  .is_split = defocused->pitch_x == 1};
-  CS_TRY(add_row(context, &row, &band->polyline));
+  cs_node_row row = {.planes = {nodes->planes[0], nodes->planes[1]},
+                     .even = nodes->even,
+                     .plane_count = defocused->planes,
+                     .last = defocused->columns - 1,
+                     .is_split = defocused->pitch_x == 1};
+  CS_TRY(cs_node_row_append(context, &row, &band->polyline));
   band->rows[++band->row_count] = band->polyline.count;
   return CELSPAN_OK;
 }
 
 void cs_defocus_band_end(const cs_defocused *defocused, cs_memory *memory, cs_defocus_band *band) {
-  cs_defocused_polyline *polyline = &band->polyline;
+  cs_node_polyline *polyline = &band->polyline;
   fit(memory, (void **)&polyline->at, &polyline->at_capacity, polyline->count,
       sizeof *polyline->at);
   fit(memory, (void **)&polyline->values, &polyline->value_capacity,
@@ -301,7 +108,7 @@ void cs_defocused_release(const cs_defocused *defocused, celspan_context *contex
                           cs_defocused_view *view) {
   drop_band(defocused, context, view, 0);
   drop_band(defocused, context, view, 1);
-  free_polyline(&view->own, context->memory);
+  cs_node_row_free(&view->own, context->memory);
   if (defocused->mix)
     defocused->forget(context, view);
   cs_mem_free(context->memory, view->mixed, mixed_count(defocused) * sizeof *view->mixed);
@@ -332,8 +139,8 @@ static celspan_status make_mixed(const cs_defocused *defocused, celspan_context 
 }
 
 static celspan_status mix_rows(const cs_defocused *defocused, celspan_context *context,
-                               cs_defocused_view *view, node_row *upper, const node_row *lower,
-                               float share) {
+                               cs_defocused_view *view, cs_node_row *upper,
+                               const cs_node_row *lower, float share) {
   size_t columns = (size_t)defocused->columns;
   CS_TRY(make_mixed(defocused, context, view));
   for (int plane = 0; plane < defocused->planes; plane++) {
@@ -350,9 +157,9 @@ static celspan_status mix_rows(const cs_defocused *defocused, celspan_context *c
 
 /* The vertices of a row of nodes. */
 static celspan_status make_vertices(celspan_context *context, cs_defocused_view *view,
-                                    node_row *nodes) {
+                                    cs_node_row *nodes) {
   view->own.count = 0;
-  CS_TRY(add_row(context, nodes, &view->own));
+  CS_TRY(cs_node_row_append(context, nodes, &view->own));
   view->at = view->own.at;
   view->values = (const float(*)[4])view->own.values;
   view->count = view->own.count;
@@ -362,11 +169,11 @@ static celspan_status make_vertices(celspan_context *context, cs_defocused_view 
 static celspan_status move_between(const cs_defocused *defocused, celspan_context *context,
                                    cs_defocused_view *view, const cs_defocus_band *upper,
                                    int32_t row, float share) {
-  node_row nodes = band_nodes(defocused, upper, row);
+  cs_node_row nodes = band_nodes(defocused, upper, row);
   if (share > 0) {
     const cs_defocus_band *lower;
     CS_TRY(pin_band(defocused, context, view, (row + 1) / defocused->band_rows, &lower));
-    node_row below = band_nodes(defocused, lower, row + 1);
+    cs_node_row below = band_nodes(defocused, lower, row + 1);
     CS_TRY(mix_rows(defocused, context, view, &nodes, &below, share));
   }
   return make_vertices(context, view, &nodes);
@@ -376,13 +183,13 @@ static inline bool is_clear(const float node[4]) {
   return cs_v4_same(cs_v4_load(node), cs_v4_all(0));
 }
 
-static void show_pixels(cs_defocused_view *view, const node_row *nodes) {
+static void show_pixels(cs_defocused_view *view, const cs_node_row *nodes) {
   for (int plane = 0; plane < nodes->plane_count; plane++)
     view->pixels[plane] = nodes->planes[plane];
 }
 
 /* Shows a row of pixels that a band has. */
-static void show_kept(cs_defocused_view *view, const node_row *nodes) {
+static void show_kept(cs_defocused_view *view, const cs_node_row *nodes) {
   cs_defocused_range *visible = &view->visible;
   *visible = (cs_defocused_range){0, nodes->last + 1};
   show_pixels(view, nodes);
@@ -398,7 +205,7 @@ static celspan_status move_to_bands(const cs_defocused *defocused, celspan_conte
   const cs_defocus_band *band;
   CS_TRY(pin_band(defocused, context, view, row / defocused->band_rows, &band));
   if (defocused->are_pixels) {
-    node_row nodes = band_nodes(defocused, band, row);
+    cs_node_row nodes = band_nodes(defocused, band, row);
     show_kept(view, &nodes);
     return CELSPAN_OK;
   }
@@ -412,11 +219,11 @@ static celspan_status move_to_bands(const cs_defocused *defocused, celspan_conte
 }
 
 /* The nodes of a mixed row: all of them where they are not pixels. */
-static node_row mixed_nodes(const cs_defocused *defocused, const cs_defocused_view *view) {
+static cs_node_row mixed_nodes(const cs_defocused *defocused, const cs_defocused_view *view) {
   const float(*mixed)[4] = (const float(*)[4])view->mixed;
-  return (node_row){.planes = {mixed, mixed + defocused->columns},
-                    .plane_count = defocused->planes,
-                    .last = defocused->columns - 1};
+  return (cs_node_row){.planes = {mixed, mixed + defocused->columns},
+                       .plane_count = defocused->planes,
+                       .last = defocused->columns - 1};
 }
 
 /* Makes the nodes clear that are not visible but were in the row before. */
@@ -443,7 +250,7 @@ static celspan_status move_to_mixed(const cs_defocused *defocused, celspan_conte
   view->visible = (cs_defocused_range){0, defocused->columns}; /* if mixing fails */
   CS_TRY(defocused->mix(defocused, context, view, y));
   clear_beyond(defocused, view, before);
-  node_row nodes = mixed_nodes(defocused, view);
+  cs_node_row nodes = mixed_nodes(defocused, view);
   if (!defocused->are_pixels)
     return make_vertices(context, view, &nodes);
   show_pixels(view, &nodes);

@@ -13,11 +13,6 @@
  *         :    |    :         :         :       above and below
  *              x = 0
  *
- *     value   v-----v                              a row of nodes is kept as a polyline: its
- *       |    /       `v--.                         vertices are nodes, the values between two of
- *       |   v  .  .  .    ` v  .  . v              them lie on the line from one to the other
- *       +---+--+--+--+--+---+--+----+--> node
- *
  *   bands (defocus/ makes them) --a row, or two mixed--> vertices --along the line--> paint at x
  *
  * Where a cel has a grid of its own (defocus/), a row of nodes at the height of the frame's row is
@@ -29,26 +24,17 @@
  * differs from channel to channel a second plane holds T.
  *
  * Invariant: the values of a node are a function of the cel, its placement and the frame's size;
- * lines from vertex to vertex are within a quarter of 1/1023 of the nodes between them; the nodes
- * of a mixed row beyond its visible ones are clear.
+ * the nodes of a mixed row beyond its visible ones are clear.
  */
 #pragma once
 
 #include "base/context.h"
 #include "base/vector.h"
+#include "engine/sample/node_row.h"
 #include "engine/span/run.h"
-
-/* Rows of nodes as polylines: equal values at two vertices are a constant stretch. */
-typedef struct cs_defocused_polyline {
-  int32_t *at;        /* nodes, ascending in each row, from the first to the last */
-  float (*values)[4]; /* of each vertex, plane after plane */
-  bool *constant;     /* scratch: of the row being made, which lines are constant */
-  size_t count, at_capacity, value_capacity, constant_capacity;
-} cs_defocused_polyline;
 
 /* The nodes of one row, plane after plane. Stretches of one colour are known group by group: in an
  * even group all nodes are equal, and only its first and its last one need to be there. */
-#define CS_DEFOCUSED_GROUP 8
 typedef struct cs_defocused_nodes {
   const float (*planes[2])[4];
   const bool *even; /* by group, in all planes together; NULL: unknown */
@@ -59,7 +45,7 @@ typedef struct cs_defocused_nodes {
 typedef struct cs_defocus_band {
   float (*nodes)[4]; /* NULL where they are polylines */
   size_t node_count;
-  cs_defocused_polyline polyline;
+  cs_node_polyline polyline;
   size_t *rows; /* the first vertex of each row, and the end: band_rows + 1 */
   size_t row_count, row_capacity;
 } cs_defocus_band;
@@ -101,7 +87,7 @@ typedef struct cs_defocused_view {
   const int32_t *at; /* the vertices of the row: of a band, or its own */
   const float (*values)[4];
   size_t count;
-  cs_defocused_polyline own;
+  cs_node_polyline own;
   float (*mixed)[4];           /* a row of nodes, plane after plane */
   struct cs_regrid_rows *rows; /* only of mixed rows */
   cs_defocused_range visible;  /* the nodes of a row of pixels, or of a mixed one, that may not be
