@@ -1,5 +1,5 @@
 /* The inputs of filters that have one colour. */
-#include "readers/svg/filters/filters.h"
+#include "readers/svg/filters/filter_steps.h"
 
 #include "readers/svg/document/shapes.h"
 

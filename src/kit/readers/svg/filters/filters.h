@@ -22,13 +22,3 @@ CELSPAN_CHECKED celspan_status cs_svg_filter_function_make(const cs_svg_reading 
                                                            const cs_svg_filter_call *call,
                                                            const cs_svg_place *place,
                                                            cs_svg_recipe *recipe);
-
-/* The paint of an input of the next step of a recipe for an element at `place`; false: it may have
- * several. The silhouette of an element with several colours is taken to be opaque. feMorphology
- * takes inputs of one colour, so that their greatest and least pixels are shapes.
- *
- *     the element or its silhouette --> feOffset, feMorphology --> the same paint
- */
-bool cs_svg_filter_one_paint(const cs_svg_reading *reading, const cs_svg_node *element,
-                             const cs_svg_place *place, const cs_svg_recipe *recipe, size_t number,
-                             celspan_paint *out);
