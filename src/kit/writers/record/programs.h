@@ -36,5 +36,10 @@ CELSPAN_CHECKED celspan_status cs_record_program(const cs_record_source *source,
                                                  const cs_program *program, cs_recording *record,
                                                  planefile_program *out);
 
+/* *out: the number of the axis of a layer in the record, to which it is added if it is new. Errors:
+ * NO_MEMORY; BAD_ARGUMENT if a plane cannot store the layer; those of its picture. */
+CELSPAN_CHECKED celspan_status cs_record_axis(const cs_record_source *source, cs_recording *record,
+                                              const cs_layer *layer, uint32_t *out);
+
 /* Of what a program of a record shows. */
 cs_hash cs_record_program_hash(const cs_recording *record, const planefile_program *program);
