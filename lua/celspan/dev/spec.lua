@@ -1,5 +1,4 @@
---- Assertions about films for busted: about frames, points, cels and rows. One file, because all
--- assertions share how they read frames and what their failures say.
+--- Assertions about films for busted: about frames, points, cels and rows.
 --
 --   require "celspan.spec"                         -- adds them to luassert
 --   assert.frame(film, 12).looks_like "walk.png"
@@ -12,9 +11,9 @@
 -- The first word names the subject, the last one the claim; `is_not`, before either of them,
 -- negates. No claim has the name of a filler word of luassert, because these pass with any
 -- arguments.
-
--- This is one file, because most of it is one table of claims with their messages. The claims share
--- a few functions that render and compare frames.
+--
+-- One file, because most of it is one table of claims with their messages, which busted takes at
+-- once.
 local celspan = require "celspan"
 local core = require "celspan.core"
 local fields = require "celspan.fields"

@@ -1,5 +1,5 @@
---- Layered paintings as objects and cels, layer by layer. One file, because objects, cels and
--- searches are methods of the same tree.
+--- Layered paintings as objects and cels, layer by layer. One file, because readers, searches and
+-- cels share what is known of each layer beyond its fields, which no script may see.
 --
 --   local tree = assert(layers.read "forest.kra") -- .ora, .psd, an OCA folder, numbered pictures
 --   tree:find("far/hills").object
@@ -12,6 +12,7 @@ local core = require "celspan.core"
 local dissolve = require "celspan.dissolve"
 local fields = require "celspan.fields"
 local files = require "celspan.files"
+local folder_names = require "celspan.folder_names"
 local oca = require "celspan.oca"
 local sets = require "celspan.sets"
 local sheet_oca = require "celspan.sheet_oca"
@@ -225,29 +226,6 @@ end
 
 -- ---------------------------------------------------------------- folders
 
---- File extensions of pictures; other files in a folder are skipped.
-local endings = {}
-for ending in ("png jpg jpeg tif tiff exr tga dpx cin webp bmp gif jp2 hdr"):gmatch "%a+%d?" do
-  endings[ending] = true
-end
-
---- A key that sorts "b10" after "b9", because digits are compared as numbers.
-local function natural_key(name)
-  return (name:lower():gsub("%d+", function(digits)
-    local number = digits:gsub("^0+", "")
-    return ("%03d"):format(#number) .. number
-  end))
-end
-
-local function sort_naturally(names)
-  local keys = {}
-  for _, name in ipairs(names) do keys[name] = natural_key(name) end
-  table.sort(names, function(a, b)
-    if keys[a] ~= keys[b] then return keys[a] < keys[b] end
-    return a < b
-  end)
-end
-
 --- The result of a function, or nil and the message of its error, without the line.
 local function caught(make)
   local good, value = pcall(make)
@@ -257,11 +235,10 @@ end
 
 local function from_folder(path, names, options)
   local list, skipped = {}, {}
-  sort_naturally(names)
+  folder_names.sort(names)
   for _, name in ipairs(names) do
-    local base, ending = name:match "^(.*)%.(%w+)$"
-    local file = path .. "/" .. name
-    if not base or not endings[ending:lower()] then
+    local base, file = folder_names.picture(name), path .. "/" .. name
+    if not base then
       skipped[#skipped + 1] = { layer = name, what = "not a picture: it is left out" }
     elseif not core.within(path, name) then
       return nil, ("%s: %s lies outside the folder"):format(path, name)

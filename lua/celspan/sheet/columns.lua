@@ -5,6 +5,7 @@
 --   column.marks   { [3] = { inbetween = true } }
 --
 -- INVARIANT: neighbours in `names` differ, so each column has only one representation.
+local fields = require "celspan.fields"
 local ordered = require "celspan.ordered"
 
 local columns = {}
@@ -118,6 +119,41 @@ function columns.length(given, list, notes)
   end
   for _, note in ipairs(notes) do frames = math.max(frames, note.from) end
   return frames
+end
+
+--- Converts a table from frames to a list in their order: { frame =, value = }.
+local function by_frame(given, what)
+  local list = {}
+  for frame, value in next, given do
+    if math.type(frame) ~= "integer" or frame < 1 or frame > columns.most_frames then
+      columns.fail("%s: a frame must be a whole number from 1 to %d, got %s", what,
+        columns.most_frames, fields.shown(frame))
+    end
+    list[#list + 1] = { frame = frame, value = value }
+  end
+  return columns.sort(list)
+end
+
+--- Fills a column with drawings and marks that a script gives, both by frame.
+function columns.fill(column, drawings, marks)
+  local what = ("drawings of %q"):format(column.name)
+  for _, entry in ipairs(by_frame(drawings, what)) do
+    if type(entry.value) ~= "string" and entry.value ~= false then
+      columns.fail("%s: frame %d must be a name, or false if empty, got %s", what, entry.frame,
+        fields.kind(entry.value))
+    end
+    columns.add(column, entry.frame, entry.value)
+  end
+  local known = {}
+  for _, mark in ipairs(columns.marks) do known[mark[1]] = true end
+  what = ("marks of %q"):format(column.name)
+  for _, entry in ipairs(by_frame(marks, what)) do
+    if not known[entry.value] then
+      columns.fail("%s: frame %d must be inbetween, reverse, key, reference, moved or procedure",
+        what, entry.frame)
+    end
+    columns.mark(column, entry.frame, entry.value)
+  end
 end
 
 return columns

@@ -5,15 +5,13 @@
 --   s:drawing("body", f, "drawings/body_####.png")     -- the picture of that drawing
 --
 -- Frames count from 1. A drawing holds until the next one. Layers are rearmost first.
-
--- One file, because reading values of a sheet, writing it and making it from a film share the rules
--- by which drawings hold; each format has its own file.
 local celspan = require "celspan"
 local columns = require "celspan.columns"
 local core = require "celspan.core"
 local fields = require "celspan.fields"
 local files = require "celspan.files"
 local sheet_csv = require "celspan.sheet_csv"
+local sheet_film = require "celspan.sheet_film"
 local sheet_oca = require "celspan.sheet_oca"
 local sheet_text = require "celspan.sheet_text"
 local xdts = require "celspan.xdts"
@@ -120,40 +118,6 @@ local known_fields = { name = "string", scene = "string", cut = "string", fps = 
                        frames = "number", layers = "table", drawings = "table", marks = "table",
                        notes = "table", width = "number", height = "number" }
 
---- Converts a table from frames to a list in their order: { frame =, value = }.
-local function by_frame(given, what)
-  local list = {}
-  for frame, value in next, given do
-    if math.type(frame) ~= "integer" or frame < 1 or frame > columns.most_frames then
-      columns.fail("%s: a frame must be a whole number from 1 to %d, got %s", what,
-        columns.most_frames, fields.shown(frame))
-    end
-    list[#list + 1] = { frame = frame, value = value }
-  end
-  return columns.sort(list)
-end
-
-local function fill_column(column, drawings, marks)
-  local what = ("drawings of %q"):format(column.name)
-  for _, entry in ipairs(by_frame(drawings, what)) do
-    if type(entry.value) ~= "string" and entry.value ~= false then
-      columns.fail("%s: frame %d must be a name, or false if empty, got %s", what, entry.frame,
-        fields.kind(entry.value))
-    end
-    columns.add(column, entry.frame, entry.value)
-  end
-  local known = {}
-  for _, mark in ipairs(columns.marks) do known[mark[1]] = true end
-  what = ("marks of %q"):format(column.name)
-  for _, entry in ipairs(by_frame(marks, what)) do
-    if not known[entry.value] then
-      columns.fail("%s: frame %d must be inbetween, reverse, key, reference, moved or procedure",
-        what, entry.frame)
-    end
-    columns.mark(column, entry.frame, entry.value)
-  end
-end
-
 local function fill_notes(given, list)
   for i, note in ipairs(given) do
     local what = ("notes[%d]"):format(i)
@@ -197,7 +161,7 @@ local function make(given)
     end
   end
   for i, column in ipairs(list) do
-    fill_column(column, (given.drawings or {})[column.name] or {},
+    columns.fill(column, (given.drawings or {})[column.name] or {},
       (given.marks or {})[column.name] or {})
     list[i] = column
   end
@@ -475,73 +439,6 @@ end
 
 -- ---------------------------------------------------------------- the sheet of a film
 
---- The label of each part of a frame: its name; with the kind, if two kinds have the same name.
-local function column_for(state, part)
-  local column = state.by_key[part.kind .. " " .. part.name]
-  if column then return column end
-  local name = part.name
-  if state.taken[name] then name = ("%s (%s)"):format(name, part.kind) end
-  column = columns.new(name)
-  column.numbers, column.count = {}, 0
-  state.taken[name] = true
-  state.by_key[part.kind .. " " .. part.name] = column
-  state.layers[#state.layers + 1] = column
-  return column
-end
-
---- A drawing is numbered when it first appears, and recognised later by its contents.
-local function number_of(column, drawing)
-  local number = column.numbers[drawing]
-  if not number then
-    column.count = column.count + 1
-    number = tostring(column.count)
-    column.numbers[drawing] = number
-  end
-  return number
-end
-
---- The parts of a frame by name. A part that occurs several times, for instance in two exposures,
---- is one part, and each different drawing and placement of it counts once.
-local function merge_parts(list)
-  local order, by_key = {}, {}
-  for _, part in ipairs(list) do
-    local key = part.kind .. " " .. part.name
-    local one = by_key[key]
-    if not one then
-      one = { kind = part.kind, name = part.name, drawing = "", placement = "", known = {} }
-      by_key[key], order[#order + 1] = one, one
-    end
-    for _, half in ipairs { "drawing", "placement" } do
-      local hash = part[half]
-      if not one.known[half .. hash] then
-        one.known[half .. hash], one[half] = true, one[half] .. hash
-      end
-    end
-    one.procedure = one.procedure or part.procedure
-  end
-  return order
-end
-
-local function add_part(column, part, frame)
-  if part.procedure then
-    columns.add(column, frame, column.names[#column.names] or "procedure")
-    columns.mark(column, frame, "procedure")
-  else
-    columns.add(column, frame, number_of(column, part.drawing))
-  end
-  if column.met == frame - 1 and column.placement ~= part.placement then
-    columns.mark(column, frame, "moved")
-  end
-  column.placement, column.met = part.placement, frame
-end
-
-local function add_frame(state, list, frame)
-  for _, part in ipairs(merge_parts(list)) do add_part(column_for(state, part), part, frame) end
-  for _, column in ipairs(state.layers) do
-    if column.met ~= frame then columns.add(column, frame, false) end
-  end
-end
-
 --- The sheet of a film: a layer for each named cel and each named object, and for unnamed cels by
 --- their positions. Drawings are numbered in the order of their appearance; `moved` marks the
 --- frames on which only the placement changes: transform, fade, viewport, lights, defocus. If
@@ -554,12 +451,9 @@ function sheet.of(film, options)
   options = options or {}
   fields.check("sheet: of", options, { frames = "table" })
   local listed = options.frames
-  local state, count = { layers = {}, by_key = {}, taken = {} }, listed and #listed or film.frames
-  for index = 1, count do
-    add_frame(state, core.parts(film:at(listed and listed[index] or film.first + index - 1)), index)
-  end
-  local made, message = fields.caught(finish, { name = film.title, fps = film.fps, frames = count,
-    layers = state.layers, notes = {}, width = film.size[1], height = film.size[2] })
+  local made, message = fields.caught(finish, { name = film.title, fps = film.fps,
+    frames = listed and #listed or film.frames, layers = sheet_film.columns(film, listed),
+    notes = {}, width = film.size[1], height = film.size[2] })
   return made or core.refuse("sheet: " .. message)
 end
 
