@@ -31,23 +31,35 @@ local svg = {}
 ---@field parts table<string, celspan.object> By id, or by Inkscape label if only one element has it
 ---@field skipped celspan.svg.skipped[] The parts that were not drawn
 ---@field seconds? number How long it moves: up to the end of the last animation that ends, or the longest period where all repeat for ever
-local Art = fields.class("celspan.svg", "a drawing", { seconds = true, __has_changes = true })
+local Art = fields.class("celspan.svg", "a drawing", { seconds = true, __move = true })
 
---- Moves a drawing that is being read to a time (mover.h); nil: returns how long it moves.
-local function move(mover, seconds)
-  -- they are large, and few drawings move
-  local smil, styles = require "celspan.svg_smil", require "celspan.svg_styles"
-  local finish, period = smil.run(mover, seconds)
-  local later, longer = styles.run(mover, seconds)
-  if seconds then return 0 end
-  finish = math.max(finish, later)
-  return finish > 0 and finish or math.max(period, longer)
+--- What moves a drawing that is being read to a time (mover.h); nil: returns how long it moves. What
+--- its documents say is kept: its own, and those of drawings that are images of it.
+local function clock()
+  local plans = {}
+  return function(mover, seconds)
+    -- they are large, and few drawings move
+    local smil, styles = require "celspan.svg_smil", require "celspan.svg_styles"
+    local key = mover:key()
+    local plan = plans[key] or { smil.read(mover), styles.read() }
+    plans[key] = plan
+    if seconds then
+      smil.move(mover, plan[1], seconds)
+      styles.move(mover, plan[2], seconds)
+      return 0
+    end
+    local finish, period = smil.measure(plan[1])
+    local later, longer = styles.measure(mover, plan[2])
+    finish = math.max(finish, later)
+    return finish > 0 and finish or math.max(period, longer)
+  end
 end
 
 --- Drawings by the key of the core's cached drawing, as long as references to them exist.
 local known = setmetatable({}, { __mode = "v" })
 
-local function wrap(drawing, has_changes)
+--- move: of a drawing that was read (`clock`).
+local function wrap(drawing, move)
   local key = drawing:key()
   if known[key] then return known[key] end
   local width, height = drawing:size()
@@ -56,7 +68,7 @@ local function wrap(drawing, has_changes)
   known[key] = setmetatable({ object = drawing:object(), width = width, height = height,
                               parts = parts, skipped = drawing:skipped(),
                               seconds = drawing:seconds(), __drawing = drawing,
-                              __has_changes = has_changes }, Art)
+                              __move = move }, Art)
   return known[key]
 end
 
@@ -70,10 +82,10 @@ function Art:at(seconds)
   if seconds < 0 or seconds > 1e12 then
     core.refuse(("svg: at takes seconds from 0 to 1e12, got %s"):format(seconds))
   end
-  if self.__has_changes then
+  if not self.__move then
     core.refuse "svg: a drawing with changes has no times; take `at` of the drawing that was read"
   end
-  local drawing, message = self.__drawing:at(seconds, move)
+  local drawing, message = self.__drawing:at(seconds, self.__move)
   return drawing and drawing:object() or core.refuse("svg: " .. message)
 end
 
@@ -99,7 +111,7 @@ function Art:with(changes)
     fields.expect_kind(type(change) == "function", change,
       "svg: part '%s' must have a function", name)
   end
-  return wrap(self.__drawing:with(changes), true)
+  return wrap(self.__drawing:with(changes))
 end
 
 ---@class celspan.svg.element
@@ -208,9 +220,10 @@ function svg.read(path, options)
   options = options == nil and {} or options
   fields.check("svg: read", options, { fonts = "table", space = "any" })
   fields.space("svg", options.space)
+  local move = clock()
   local drawing, message = files.found(path, core.read_svg, list_fonts(options),
     options.space or "srgb", move)
-  if drawing then return wrap(drawing) end
+  if drawing then return wrap(drawing, move) end
   return nil, message
 end
 

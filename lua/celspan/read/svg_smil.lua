@@ -40,16 +40,17 @@ local function whole(text, take)
 end
 
 --- Source: SMIL 3.0, 5.4.5: the active duration.
-local function add_durations(mover, i, timing)
-  local function clock(name) return whole(mover:text(i, name), take_clock) end
-  local count = whole(mover:text(i, "repeatCount"), words.number)
-  local limit, least, most = clock "repeatDur", clock "min", clock "max"
-  timing.simple = clock "dur" or huge
-  timing.whole = not count and not limit and timing.simple or huge
-  if count and timing.simple < huge then timing.whole = timing.simple * count end
-  timing.whole = math.min(timing.whole, limit or huge)
-  timing.least, timing.most = least and least < huge and least or 0, most or huge
-  if timing.least > timing.most then timing.least, timing.most = 0, huge end
+local function rule_of(dur, repeat_count, repeat_dur, min, max, restart, fill)
+  local count, limit = whole(repeat_count, words.number), whole(repeat_dur, take_clock)
+  local simple, least, most = whole(dur, take_clock) or huge, whole(min, take_clock),
+    whole(max, take_clock) or huge
+  local all = count and simple < huge and simple * count or not (count or limit) and simple or huge
+  least = least and least < huge and least or 0
+  if least > most then least, most = 0, huge end
+  return { simple = simple, whole = math.min(all, limit or huge), least = least, most = most,
+           restart = words.is(restart, "never") and "never"
+             or words.is(restart, "whennotactive") and "whennotactive" or "always",
+           freezes = words.is(fill, "freeze") }
 end
 
 --- [+|-] time, or nothing; nil: the text from `at` on is something else.
@@ -69,10 +70,11 @@ local function follower(text)
   end
 end
 
---- Adds one of the moments of a list. False: only an event or a script gives it.
-local function add_moment(text, which, timing, find)
+--- Reads one of the moments of a list into it, or into the links. False: only an event or a script
+--- gives it.
+local function add_moment(text, which, list, plan, find)
   if text:find "^[+.%d-]" then
-    local list, offset = timing[which], offset_in(text, 1)
+    local offset = offset_in(text, 1)
     list[#list + 1] = offset
     return offset ~= nil
   end
@@ -80,60 +82,61 @@ local function add_moment(text, which, timing, find)
   local offset = id and offset_in(text, behind)
   local of = offset and find(id)
   if of then
-    if not timing.links[1] then timing.links = {} end
-    table.insert(timing.links, { which = which, of = of, event = event, offset = offset })
+    local link = #plan.of + 1
+    plan.which[link], plan.of[link], plan.offset[link] = which, of, offset
+    plan.event[link], plan.owner[link] = event == "begin" and "from" or "till", #plan.rules
   end
   return of ~= nil
 end
 
---- Reads begin or end. Returns whether the list has what is never, or what only an event gives.
-local function add_moments(mover, i, name, which, timing, find)
-  local is_open, is_noted = false, false
-  for _, text in ipairs(words.parts(mover:text(i, name) or "")) do
-    if not add_moment(text, which, timing, find) then
-      is_open = true
-      local is_silent = is_noted or name == "end" and text:lower():find "^indefinite%f[^%a-]"
+local NONE, AT_ONCE = {}, { 0 } -- of the many animations without written moments
+
+--- The moments of begin or end. is_open: it has what is never, or what only an event gives.
+local function moments(mover, name, text, which, plan, find)
+  local list, is_noted = {}, false
+  for _, part in ipairs(words.parts(text)) do
+    if not add_moment(part, which, list, plan, find) then
+      list.is_open = true
+      local is_silent = is_noted or name == "end" and part:lower():find "^indefinite%f[^%a-]"
       if not is_silent then
         is_noted = true
-        mover:skip(i, ('%s "%s" is not run'):format(name, text:sub(1, 40)))
+        mover:skip(#plan.rules, ('%s "%s" is not run'):format(name, part:sub(1, 40)))
       end
     end
   end
-  table.sort(timing[which])
-  return is_open
+  table.sort(list)
+  return (list[1] or list.is_open) and list or NONE
 end
 
-local NONE = {} -- of the many animations without an end
-
-local function add_times(mover, it, find)
-  local i = it.number
-  local restart = mover:text(i, "restart")
-  it.restart = words.is(restart, "never") and "never"
-    or words.is(restart, "whennotactive") and "whennotactive" or "always"
-  it.freezes = words.is(mover:text(i, "fill"), "freeze")
-  it.begins, it.ends, it.links = {}, mover:text(i, "end") and {} or NONE, NONE
-  add_durations(mover, i, it)
-  add_moments(mover, i, "begin", "begins", it, find)
-  it.end_is_open = add_moments(mover, i, "end", "ends", it, find)
-  if not mover:text(i, "begin") then it.begins[1] = 0 end
-end
-
-local function read_all(mover)
-  local list, numbers = {}, nil
-  repeat
-    local i = #list + 1
-    local target, name, tag = mover:animation(i)
-    list[i] = tag and { number = i, target = target, name = name, tag = tag }
-  until not tag
+--- Reads the times of the elements that animate: timings (celspan.svg_times) with `targets`, false:
+--- it has no effect, `names` and `tags`.
+local function read_times(mover)
+  local plan = { rules = {}, begins = {}, ends = {}, first = {}, which = {}, of = {}, event = {},
+                 offset = {}, owner = {}, targets = {}, names = {}, tags = {} }
+  local numbers, known = nil, {}
   local function find(id)
     if not numbers then
       numbers = {}
-      for i = #list, 1, -1 do numbers[mover:text(i, "id") or ""] = i end
+      for i = mover:animations(), 1, -1 do numbers[mover:text(i, "id") or ""] = i end
     end
     return numbers[id]
   end
-  for _, it in ipairs(list) do add_times(mover, it, find) end
-  return list
+  local function rule(...)
+    local key = words.key(...)
+    known[key] = known[key] or rule_of(...)
+    return known[key]
+  end
+  for i = 1, mover:animations() do
+    plan.targets[i], plan.names[i], plan.tags[i] = mover:animation(i)
+    local begin, finish = mover:text(i, "begin", "end")
+    plan.first[i] = #plan.of + 1
+    plan.rules[i] = rule(mover:text(i, "dur", "repeatCount", "repeatDur", "min", "max", "restart",
+      "fill"))
+    plan.begins[i] = begin and moments(mover, "begin", begin, "begins", plan, find) or AT_ONCE
+    plan.ends[i] = finish and moments(mover, "end", finish, "ends", plan, find) or NONE
+  end
+  plan.first[mover:animations() + 1] = #plan.of + 1
+  return plan
 end
 
 -- ---------------------------------------------------------------- lists
@@ -175,10 +178,10 @@ local function number_of(text)
   return value and words.is_blank(text, behind) and value or nil
 end
 
---- The place of a share of the time among values that are at these shares, or evenly, and between
---- which there are curves: 1.5 is in the middle between the second and the third. nil: the shares
---- do not ascend from 0, to 1 unless they are discrete.
-local function place_in(shares, curves, at, count, is_discrete)
+--- The track of the places of `count` values that are at these shares of the time, or evenly, and
+--- between which there are curves: 1.5 is in the middle between the second and the third. nil: the
+--- shares do not ascend from 0, to 1 unless they are discrete.
+local function track_of(shares, curves, count, is_discrete)
   local list = {}
   for k = 1, count do
     local curve = curves and curves[k - 1] or nil
@@ -187,32 +190,37 @@ local function place_in(shares, curves, at, count, is_discrete)
   local last = list[count][1]
   if list[1][1] ~= 0 or last > 1 or last < 1 and not is_discrete then return nil end
   local is_good, track = pcall(keys, list)
-  return is_good and track:at(at) or nil
+  return is_good and track or nil
 end
 
---- Where a share of the time is in a list of `count` values, by keyTimes and keySplines: at a share
---- between value `first`, counted from 0, and the next one. distances: between the values of a list
---- that is paced; nil: it is not. nil: the lists of the element lie.
-local function place(mover, i, mode, at, count, distances)
-  local is_discrete = words.is(mode, "discrete")
-  local given, shares, curves = mover:text(i, "keyTimes"), nil, nil
+--- Where a share of the time is in a list of `count` values, by keyTimes and keySplines: a function
+--- that returns the number of a value, counted from 0, and the share from it to the next one.
+--- distances: between the values of a list that is paced; nil: it is not. nil: the lists of the
+--- element lie.
+local function placer(mover, i, mode, count, distances)
+  local is_discrete, is_spline = words.is(mode, "discrete"), words.is(mode, "spline")
+  local given, shares, curves, track = mover:text(i, "keyTimes"), nil, nil, nil
   if words.is(mode, "paced") then
     shares = distances and paces(distances)
-    if distances and not shares then return 0, 0 end
+    if distances and not shares then return function() return 0, 0 end end
   elseif given then
     shares = list_of(given, count, number_of)
     if not shares then return nil end
   end
-  if words.is(mode, "spline") and count > 1 then
+  if is_spline and count > 1 then
     curves = list_of(mover:text(i, "keySplines"), count - 1, curve_of)
     if not curves then return nil end
   end
+  if shares or curves then
+    track = track_of(shares, curves, count, is_discrete)
+    if not track then return nil end
+  end
   local parts = is_discrete and count or math.max(1, count - 1)
-  local where = at * parts
-  if shares or curves then where = place_in(shares, curves, at, count, is_discrete) end
-  if not where then return nil end
-  local first = math.min(math.floor(where), parts - 1)
-  return first, is_discrete and 0 or where - first
+  return function(at)
+    local where = track and track:at(at) or at * parts
+    local first = math.min(math.floor(where), parts - 1)
+    return first, is_discrete and 0 or where - first
+  end
 end
 
 -- ---------------------------------------------------------------- values
@@ -237,9 +245,9 @@ local function transform(kind, text)
   return ("%s(%s)"):format(kind.name, table.concat(numbers, " "))
 end
 
---- Where a share of the time is in a list, from `first`, counted from 0, to the next value; nil:
---- the lists of the element lie. last: the last value: those that do not mix are discrete.
-local function place_in_values(mover, i, list, last, at)
+--- The placer of a list of values; nil: the lists of the element lie. list: nil: from, to and by.
+--- last: the last value: those that do not mix are discrete.
+local function placer_of_values(mover, i, list, last)
   local mode, distances = mover:text(i, "calcMode") or "linear", nil
   if not mover:distance(i, last, last) then
     mode = "discrete"
@@ -247,60 +255,56 @@ local function place_in_values(mover, i, list, last, at)
     distances = {}
     for k = 2, #list do distances[k - 1] = mover:distance(i, list[k - 1], list[k]) or 0 end
   end
-  return place(mover, i, mode, at, list and #list or 2, distances)
+  return placer(mover, i, mode, list and #list or 2, distances)
 end
 
---- Moves an attribute by a list of values.
-local function animate_list(mover, i, list, at, how, round)
+--- Moves an attribute by a list of values. sums: 1 or 0: how often each round adds the last value.
+local function animate_list(mover, i, list, how, sums)
   local last = list[#list]
-  local first, share = nil, nil
-  if last then first, share = place_in_values(mover, i, list, last, at) end
-  if first then
-    mover:mix(i, nil, share, list[first + 1], how, list[first + 2] or last, how, false, last, round)
+  local place = last and placer_of_values(mover, i, list, last)
+  return place and function(by, at, round)
+    local first, share = place(at)
+    by:mix(i, nil, share, list[first + 1], how, list[first + 2] or last, how, false, last,
+      round * sums)
   end
 end
 
 --- The same by from, to and by. kind: of a transform; nil: of another attribute.
-local function animate_ends(mover, i, given, at, how, round, kind)
-  local from, to, by = given "from", given "to", given "by"
-  if not to and not by then return end
-  local first, share = place_in_values(mover, i, nil, to or by, at)
-  if not first then return end
+local function animate_ends(mover, i, from, to, by, how, sums, kind)
+  local place = (to or by) and placer_of_values(mover, i, nil, to or by)
   local is_only, last = not from, nil -- without a beginning
   if is_only and to then
-    from, how, round = kind and transform(kind, "") or nil, REPLACE, 0
+    from, how, sums = kind and transform(kind, "") or nil, REPLACE, 0
   elseif is_only then
     from, how, last = kind and transform(kind, "0 0 0"), kind and ADD or REPLACE, by
   end
-  mover:mix(i, nil, first + share, from, how, to or by, how, not to, last, round)
+  return place and function(mover_then, at, round)
+    local first, share = place(at)
+    mover_then:mix(i, nil, first + share, from, how, to or by, how, not to, last, round * sums)
+  end
 end
 
-local function animate(mover, it, at, round)
-  local i, kind = it.number, nil
-  if it.tag == "set" then
-    local to = mover:text(i, "to")
-    if to then mover:mix(i, nil, 0, to, REPLACE, to, REPLACE) end
-    return
+local function animate(mover, i, tag)
+  local values, from, to, by, kind = mover:text(i, "values", "from", "to", "by")
+  if tag == "set" then
+    return to and function(then_by) then_by:mix(i, nil, 0, to, REPLACE, to, REPLACE) end
   end
-  if it.tag == "animateTransform" then
+  if tag == "animateTransform" then
     local name = (mover:text(i, "type") or "translate"):match "^%s*(%a+)%s*$"
     kind = name and transforms[name:lower()]
-    if not kind then return end
+    if not kind then return nil end
   end
-  local function given(name)
-    local value = mover:text(i, name)
-    return value and kind and transform(kind, value) or value
-  end
-  local how = words.is(mover:text(i, "additive"), "sum") and ADD or REPLACE
-  if not words.is(mover:text(i, "accumulate"), "sum") then round = 0 end
-  local values = mover:text(i, "values")
+  local additive, accumulate = mover:text(i, "additive", "accumulate")
+  local how = words.is(additive, "sum") and ADD or REPLACE
+  local sums = words.is(accumulate, "sum") and 1 or 0
   if not values then
-    animate_ends(mover, i, given, at, how, round, kind)
-    return
+    local function whole_of(text) return text and kind and transform(kind, text) or text end
+    return animate_ends(mover, i, whole_of(from), whole_of(to), whole_of(by), how, sums,
+      kind)
   end
   local list = words.parts(values)
   for k = 1, kind and #list or 0 do list[k] = transform(kind, list[k]) end
-  animate_list(mover, i, list, at, how, round)
+  return animate_list(mover, i, list, how, sums)
 end
 
 -- ---------------------------------------------------------------- ways
@@ -309,8 +313,7 @@ local function point(text) return (words.numbers(text, 1, 2)) end
 
 --- The points of the list, or the two of from, to and by; nil: there are none.
 local function read_points(mover, i)
-  local values, from = mover:text(i, "values"), mover:text(i, "from")
-  local to, by = mover:text(i, "to"), mover:text(i, "by")
+  local values, from, to, by = mover:text(i, "values", "from", "to", "by")
   if values then
     local list = words.parts(values)
     for k, part in ipairs(list) do
@@ -324,8 +327,9 @@ local function read_points(mover, i)
   return { a, to and b or { a[1] + b[1], a[2] + b[2] } }
 end
 
---- The place on the way between points and its direction, and the end of the way.
-local function spot_on_points(mover, i, mode, at)
+--- A function of a share of the time: the place on the way between points and its direction, and
+--- the end of the way. nil: there is none.
+local function way_of_points(mover, i, mode)
   local points, distances = read_points(mover, i), nil
   if not points then return nil end
   if words.is(mode, "paced") then
@@ -335,96 +339,144 @@ local function spot_on_points(mover, i, mode, at)
       distances[k - 1] = math.sqrt(dx * dx + dy * dy)
     end
   end
-  local first, share = place(mover, i, mode, at, #points, distances)
-  if not first then return nil end
-  local a, b, last = points[first + 1], points[first + 2] or points[first + 1], points[#points]
-  local dx, dy = b[1] - a[1], b[2] - a[2]
-  return a[1] + dx * share, a[2] + dy * share, math.deg(math.atan(dy, dx)), last[1], last[2]
-end
-
-local function key_point(text)
-  return math.max(0, math.min(1, words.number(text, 1) or 1))
-end
-
---- The share of the line at a share of the time; nil: the lists of the element lie.
-local function share_of_line(mover, i, mode, at)
-  local points = mover:text(i, "keyPoints")
-  if words.is(mode, "paced") or not points and not words.is(mode, "spline") then return at end
-  local list = points and words.parts(points) or { "0", "1" }
-  local first, share = place(mover, i, mode, at, #list)
-  if not first or #list == 0 then return nil end
-  local from, to = key_point(list[first + 1]), key_point(list[math.min(first + 2, #list)])
-  return from + (to - from) * share
-end
-
---- The turn that `rotate` asks for, where the way has this direction.
-local function turn(rotate, degrees)
-  if not rotate then return 0 end
-  if words.is(rotate, "auto") then return degrees end
-  if words.is(rotate, "auto%-reverse") then return degrees + 180 end
-  return words.number(rotate, words.skip_space(rotate, 1)) or 0
-end
-
-local function move(mover, it, at, round)
-  local i = it.number
-  local mode = mover:text(i, "calcMode") or "paced"
-  local share = share_of_line(mover, i, mode, at)
-  local has_line, x, y, degrees, far_x, far_y = mover:spot(i, share or 0)
-  if has_line and not share then return end
-  if not has_line then x, y, degrees, far_x, far_y = spot_on_points(mover, i, mode, at) end
-  if not x then return end
-  if words.is(mover:text(i, "accumulate"), "sum") then
-    x, y = x + far_x * round, y + far_y * round
+  local place, last = placer(mover, i, mode, #points, distances), points[#points]
+  return place and function(at)
+    local first, share = place(at)
+    local a, b = points[first + 1], points[first + 2] or points[first + 1]
+    local dx, dy = b[1] - a[1], b[2] - a[2]
+    return a[1] + dx * share, a[2] + dy * share, math.deg(math.atan(dy, dx)), last[1], last[2]
   end
-  local adds = words.is(mover:text(i, "additive"), "sum") or not has_line
-    and not (mover:text(i, "values") or mover:text(i, "from") or mover:text(i, "to"))
-  mover:place(i, x, y, turn(mover:text(i, "rotate"), degrees), adds)
+end
+
+--- A function of a share of the time: the share of the line. nil: the lists of the element lie.
+local function share_of_line(mover, i, mode)
+  local points = mover:text(i, "keyPoints")
+  if words.is(mode, "paced") or not points and not words.is(mode, "spline") then
+    return function(at) return at end
+  end
+  local list = points and words.parts(points) or { "0", "1" }
+  for k, part in ipairs(list) do
+    list[k] = math.max(0, math.min(1, words.number(part, 1) or 1))
+  end
+  local place = list[1] and placer(mover, i, mode, #list)
+  return place and function(at)
+    local first, share = place(at)
+    local from, to = list[first + 1], list[math.min(first + 2, #list)]
+    return from + (to - from) * share
+  end
+end
+
+--- The turn that `rotate` asks for, where the way has no direction, and how much of that is added.
+local function turn_of(rotate)
+  if not rotate then return 0, 0 end
+  if words.is(rotate, "auto") then return 0, 1 end
+  if words.is(rotate, "auto%-reverse") then return 180, 1 end
+  return words.number(rotate, words.skip_space(rotate, 1)) or 0, 0
+end
+
+local function move(mover, i)
+  local mode, rotate, accumulate, additive = mover:text(i, "calcMode", "rotate", "accumulate",
+    "additive")
+  mode = mode or "paced"
+  local share_at, way = share_of_line(mover, i, mode), way_of_points(mover, i, mode)
+  local turn, follows = turn_of(rotate)
+  local values, from, to = mover:text(i, "values", "from", "to")
+  local is_by, sums = not (values or from or to), words.is(accumulate, "sum")
+  local is_added = words.is(additive, "sum")
+  return function(by, at, round)
+    local share = share_at and share_at(at)
+    local has_line, x, y, degrees, far_x, far_y = by:spot(i, share or 0)
+    if has_line and not share then return end
+    if not has_line and way then x, y, degrees, far_x, far_y = way(at) end
+    if not x then return end
+    if sums then x, y = x + far_x * round, y + far_y * round end
+    by:place(i, x, y, turn + follows * degrees, is_added or not has_line and is_by)
+  end
 end
 
 -- ---------------------------------------------------------------- all of them
+
+local function nothing() end
+
+--- What an animation does at a share of its time, in a round: it is made once, unless its values
+--- are those of other elements, which may move, so that they mix at one time and not at another.
+local function act_of(mover, plan, i)
+  if plan.acts[i] then return plan.acts[i] end
+  local tag = plan.tags[i]
+  local act = (tag == "animateMotion" and move or animate)(mover, i, tag) or nothing
+  local texts = words.key(mover:text(i, "values", "from", "to", "by")):lower()
+  if not texts:find("inherit", 1, true) and not texts:find("currentcolor", 1, true) then
+    plan.acts[i] = act
+  end
+  return act
+end
 
 --- Rounding of the end of a frozen animation must not begin another round.
 local SAME_TIME = 1e-9
 
 --- The share of the round at a time, and how many rounds were completed; nil: there is no effect.
-local function progress(it, seconds)
-  if not it.target or not it.from then return nil end
+local function progress(run, i, seconds)
+  local from, rule = run.begun[i], run.given.rules[i]
+  if not from then return nil end
   -- the end of what it repeats, where `min` makes it longer
-  local finish = math.min(it.to, it.from + it.whole)
-  local is_running = it.is_active and seconds < finish
-  if not is_running and not it.freezes then return nil end
+  local finish = math.min(run.ended[i], from + rule.whole)
+  local is_running = run.is_active[i] and seconds < finish
+  if not is_running and not rule.freezes then return nil end
   local at = is_running and seconds or finish
-  local rounds = it.simple < huge and (at - it.from) / it.simple or 0
+  local rounds = rule.simple < huge and (at - from) / rule.simple or 0
   local round = math.floor(rounds)
   local share = rounds - round
   if not is_running and round > 0 and share < SAME_TIME then return 1, round - 1 end
   return share, round
 end
 
---- Those that began later win.
-local function is_before(a, b)
-  if a.target ~= b.target then return a.target < b.target end
-  if a.name ~= b.name then return a.name < b.name end
-  if a.from ~= b.from then return a.from < b.from end
-  return a.number < b.number
+--- Sorts the numbers of animations by target and attribute. Of those that have begun, the later
+--- ones win. They are mostly sorted.
+local function sort(list, plan, begun)
+  local targets, names = plan.targets, plan.names
+  local function is_before(a, b)
+    if targets[a] ~= targets[b] then return targets[a] < targets[b] end
+    if names[a] ~= names[b] then return names[a] < names[b] end
+    if begun and begun[a] ~= begun[b] then return begun[a] < begun[b] end
+    return a < b
+  end
+  for k = 2, #list do
+    if is_before(list[k], list[k - 1]) then
+      table.sort(list, is_before)
+      return
+    end
+  end
 end
 
---- Moves the document to a time; seconds: nil: it stays. Returns the end of the last animation and
---- the longest period, where it stays.
-function smil.run(mover, seconds)
-  local list, active = read_all(mover), {}
-  if not seconds then return times.measure(list) end
-  local is_whole, message = times.run(list, seconds)
-  if not is_whole then mover:refuse(message) end
-  for _, it in ipairs(list) do
-    it.share, it.round = progress(it, seconds)
-    if it.share then active[#active + 1] = it end
+--- What the elements of a document say, read once: for `measure` and `move`.
+function smil.read(mover)
+  local plan = read_times(mover)
+  plan.acts, plan.order = {}, {}
+  for i, target in ipairs(plan.targets) do
+    if target then plan.order[#plan.order + 1] = i end
   end
-  table.sort(active, is_before)
-  for _, it in ipairs(active) do
-    local act = it.tag == "animateMotion" and move or animate
-    act(mover, it, it.share, it.round)
+  sort(plan.order, plan)
+  return plan
+end
+
+--- The end of the last animation and the longest period.
+smil.measure = times.measure
+
+--- Moves the document to a time.
+function smil.move(mover, plan, seconds)
+  local run, message = times.run(plan, seconds, plan.run)
+  if not run then mover:refuse(message) end
+  plan.run = run
+  local active, shares, rounds = {}, {}, {}
+  for _, i in ipairs(plan.order) do
+    local share, round = progress(run, i, seconds)
+    if share then
+      active[#active + 1] = i
+      shares[i], rounds[i] = share, round
+    end
   end
+  sort(active, plan, run.begun)
+  for _, i in ipairs(active) do act_of(mover, plan, i)(mover, shares[i], rounds[i]) end
 end
 
 return smil

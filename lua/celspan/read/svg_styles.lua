@@ -117,10 +117,9 @@ local function take_all(text)
   return made
 end
 
---- Item i of a property of the visited element, read; nil: it has none. Lists begin again after
---- their end. known: what was read, by property and text.
-local function item(mover, known, property, take, i)
-  local text = mover:text(0, property)
+--- Item i of the text of a property, read; nil: there is none. Lists begin again after their end.
+--- known: what was read, by property and text.
+local function item(known, property, text, take, i)
   if not text then return nil end
   known[property] = known[property] or {}
   local list = known[property][text] or { items = split(text) }
@@ -130,14 +129,14 @@ local function item(mover, known, property, take, i)
   return list[i] or nil, list.items.all
 end
 
---- Animation i of the visited element.
-local function read(mover, known, i)
+--- Animation i of an element with these texts of properties.
+local function read(known, texts, i)
   local made = { rounds = 1, duration = 0, delay = 0, easing = easings.ease, composition = 0,
                  direction = {}, fill = {} }
-  local all = item(mover, known, "animation", take_all, i)
+  local all = item(known, "animation", texts.animation, take_all, i)
   for field, value in next, all or {} do made[field] = value end
   for field, property in next, properties do
-    local value = item(mover, known, property, takers[field], i)
+    local value = item(known, property, texts[property], takers[field], i)
     if value ~= nil then made[field] = value end
   end
   made.duration = math.max(0, made.duration)
@@ -227,11 +226,13 @@ local function complete(list, it)
   return made
 end
 
---- Moves all properties that the frames give, each once.
-local function move(mover, it, rule, share, is_before)
+--- Moves all properties that the frames of an animation give, each once.
+local function move(mover, it, share, is_before)
+  local rule = it.rule
   mover:count(rule.size * (1 + #rule.names))
-  for _, name in ipairs(rule.names) do
-    local list = complete(rule.lists[name], it)
+  for k, name in ipairs(rule.names) do
+    local list = it[k] or complete(rule.lists[name], it)
+    it[k] = list
     local i = math.max(1, math.min(ordered.last(list, share, "at"), #list - 1))
     local low, high = list[i], list[i + 1] or list[i]
     local span = high.at - low.at
@@ -243,32 +244,66 @@ end
 
 -- ---------------------------------------------------------------- elements
 
---- Moves the document to a time; seconds: nil: it stays. Returns the end of the last animation that
---- ends, and the longest period of the others.
-function styles.run(mover, seconds)
-  local rules, known, finish, period = {}, {}, 0, 0
-  local function run(it)
-    local whole = it.delay + it.active
-    if it.state ~= "paused" and whole < huge then
-      finish = math.max(finish, whole)
-    elseif it.state ~= "paused" then
-      period = math.max(period, it.duration * (it.direction.alternates and 2 or 1))
+local names = { "animation" } -- of all properties
+for _, property in next, properties do names[#names + 1] = property end
+
+--- The animations of elements with these texts of properties that have frames, and `all`, how many
+--- they name.
+local function list_of(mover, plan, ...)
+  local texts, list = {}, {}
+  for k, name in ipairs(names) do texts[name] = (select(k, ...)) end
+  local _, all = item(plan.known, "animation-name", texts["animation-name"], take_name, 1)
+  if not all then _, all = item(plan.known, "animation", texts.animation, take_all, 1) end
+  list.all = all
+  for i = 1, math.min(all, MOST) do
+    local it = read(plan.known, texts, i)
+    if it.name and plan.rules[it.name] == nil then
+      plan.rules[it.name] = rule_of(mover, it.name)
     end
-    if not seconds then return end
-    local share, is_before = share_at(it, seconds)
-    if share then move(mover, it, rules[it.name], share, is_before) end
+    it.rule = it.name and plan.rules[it.name]
+    if it.rule then list[#list + 1] = it end
   end
+  return list
+end
+
+--- Calls a function with the animations of each element that has some. plan: what was read before.
+local function each(mover, plan, act)
   mover:visit(function()
-    local _, all = item(mover, known, "animation-name", take_name, 1)
-    if not all then _, all = item(mover, known, "animation", take_all, 1) end
-    for i = 1, math.min(all, MOST) do
-      local it = read(mover, known, i)
-      if it.name and rules[it.name] == nil then rules[it.name] = rule_of(mover, it.name) end
-      if it.name and rules[it.name] then run(it) end
+    local key = words.key(mover:text(0, table.unpack(names)))
+    local list = plan.lists[key] or list_of(mover, plan, mover:text(0, table.unpack(names)))
+    plan.lists[key] = list
+    act(list)
+  end)
+end
+
+--- What the styles say: it is read when elements are visited, and then known.
+function styles.read() return { known = {}, rules = {}, lists = {} } end
+
+--- The end of the last animation that ends, and the longest period of the others.
+function styles.measure(mover, plan)
+  local finish, period = 0, 0
+  each(mover, plan, function(list)
+    if list.all > MOST then mover:skip(0, ("animations after the first %d"):format(MOST)) end
+    for _, it in ipairs(list) do
+      local whole = it.delay + it.active
+      if it.state ~= "paused" and whole < huge then
+        finish = math.max(finish, whole)
+      elseif it.state ~= "paused" then
+        period = math.max(period, it.duration * (it.direction.alternates and 2 or 1))
+      end
     end
-    if all > MOST then mover:skip(0, ("animations after the first %d"):format(MOST)) end
   end)
   return finish, period
+end
+
+--- Moves the document to a time.
+function styles.move(mover, plan, seconds)
+  each(mover, plan, function(list)
+    for _, it in ipairs(list) do
+      local share, is_before = share_at(it, seconds)
+      if share then move(mover, it, share, is_before) end
+    end
+  end)
 end
 
 return styles

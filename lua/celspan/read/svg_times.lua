@@ -5,17 +5,22 @@
 --   b: begin="a.end" dur="1"       b    |--|     |--|     known before it begins. Each change of it
 --   c: begin="b.end" dur=".5"      c       |-|      |     moves those that wait for it, also back.
 --
--- A timing:
---   simple         seconds of one round; math.huge: it has no end
---   whole          seconds from the beginning, with all rounds; math.huge: for ever
---   least, most    seconds of an interval
---   restart        "always", "whennotactive" or "never"
---   begins, ends   lists of moments after the start of the document, which ascend
---   links          those after moments of others: { which = "begins" or "ends", of = the number of
---                  the other animation, event = its "begin" or "end", offset = seconds }
---   end_is_open    an event or nothing at all ends it, if its other ends are over
--- A run adds its own fields to it: there may be many, and a table of its own for each would double
--- the memory.
+-- Timings: lists with one item for each animation, because a table for each of 100,000 animations
+-- needs five times the memory:
+--   rules          { simple = seconds of one round; math.huge: it has no end
+--                    whole = seconds from the beginning, with all rounds; math.huge: for ever
+--                    least, most = seconds of an interval
+--                    restart = "always", "whennotactive" or "never" }, which many may share
+--   begins, ends   lists of moments after the start of the document, which ascend; ends.is_open: an
+--                  event or nothing at all ends it, if its other ends are over. They may be shared
+--   first          the number of its first link; those of the next animation follow
+-- and for each link, a moment after one of another animation:
+--   which = "begins" or "ends", of = the number of the other one, event = its "from" or "till",
+--   offset = seconds, owner = the number of the animation that waits
+--
+-- A run adds lists of its own: the interval that runs or comes next from `from` to `till`, the last
+-- one that has begun from `begun` to `ended`, is_active, ... It goes on from one time to a later
+-- one, so that a film does not begin again at each frame.
 --
 -- Source: SMIL 3.0, 5.4, as far as no event of a user and no script takes part.
 local ordered = require "celspan.ordered"
@@ -28,74 +33,76 @@ local TRIES = 64 -- steps for each animation that are tried to find whether they
 local SCAN = 1 / 16 -- of a step: a moment that is looked at
 --- How often an interval may change at one time: then it is part of a circle, and stays.
 local CHANGES = 100
-local NONE = {}
 
 -- ---------------------------------------------------------------- events
 
---- A state is in the heap by the time of its next event. At the same time, ends come first.
-local function is_earlier(a, b)
-  if a.time ~= b.time then return a.time < b.time end
-  if a.is_active ~= b.is_active then return a.is_active end
-  return a.number < b.number
+--- The heap has the numbers of animations by the time of their next event. At the same time, ends
+--- come first.
+local function is_earlier(run, a, b)
+  local one, other = run.time[a], run.time[b]
+  if one ~= other then return one < other end
+  if run.is_active[a] ~= run.is_active[b] then return run.is_active[a] end
+  return a < b
 end
 
---- Moves a state of the heap to its place.
-local function sift(heap, place)
-  local state = heap[place]
-  while place > 1 and is_earlier(state, heap[place // 2]) do
+--- Puts an animation into the heap, at a free place below which there is nothing, or above that.
+local function put(run, i, place)
+  local heap, places = run.heap, run.place
+  while place > 1 and is_earlier(run, i, heap[place // 2]) do
     heap[place] = heap[place // 2]
-    heap[place].place = place
+    places[heap[place]] = place
     place = place // 2
   end
+  heap[place], places[i] = i, place
+end
+
+local function remove(run, i)
+  local heap, places, time = run.heap, run.place, run.time
+  local place, last = places[i], table.remove(heap)
+  places[i] = false
+  if last == i then return end
   local below = 2 * place
-  while heap[below] do
-    if heap[below + 1] and is_earlier(heap[below + 1], heap[below]) then below = below + 1 end
-    if not is_earlier(heap[below], state) then break end
-    heap[place] = heap[below]
-    heap[place].place = place
+  local a, b = heap[below], heap[below + 1]
+  while a do
+    if b and (time[b] < time[a] or time[b] == time[a] and is_earlier(run, b, a)) then
+      a, below = b, below + 1
+    end
+    heap[place], places[a] = a, place
     place, below = below, 2 * below
+    a, b = heap[below], heap[below + 1]
   end
-  heap[place] = state
-  state.place = place
+  put(run, last, place)
 end
 
-local function remove(heap, state)
-  local place, last = state.place, table.remove(heap)
-  state.place = nil
-  if last == state then return end
-  heap[place] = last
-  sift(heap, place)
-end
-
---- Sets the time of the next event of a state, which replaces the one before.
-local function expect(run, state, time)
+--- Sets the time of the next event of an animation, which replaces the one before.
+local function expect(run, i, time)
   run.steps = run.steps + 1
-  if state.place then remove(run.heap, state) end
+  if run.place[i] then remove(run, i) end
   if time == huge then return end
-  state.time = time
-  run.heap[#run.heap + 1] = state
-  sift(run.heap, #run.heap)
+  run.time[i] = time
+  put(run, i, #run.heap + 1)
 end
 
 local function is_spent(run) return run.steps > run.most end
 
 -- ---------------------------------------------------------------- moments
 
---- The first moment of a state from `from` on, or after it where is_later; math.huge: there is
+--- The first moment of an animation from `from` on, or after it where is_later; math.huge: there is
 --- none. which: "begins" or "ends".
-local function first_moment(run, state, which, from, is_later)
-  local written, links, best = state[which], state.links, huge
-  local last = written[#written]
+local function first_moment(run, i, which, from, is_later)
+  local written, given, best = run[which][i], run.given, huge
+  local first, after, last = given.first[i], given.first[i + 1], written[#written]
+  if not last and first == after then return huge end
   if last and last >= from then
-    local i = ordered.last(written, from)
-    if not is_later and written[i] == from then return from end
-    best = written[i + 1] or huge
+    local k = ordered.last(written, from)
+    if not is_later and written[k] == from then return from end
+    best = written[k + 1] or huge
   end
-  run.steps = run.steps + SCAN * #links
-  for i = 1, #links do
-    local link = links[i]
-    local time = link.time
-    if time < best and time >= from and link.which == which and (time > from or not is_later) then
+  run.steps = run.steps + SCAN * (after - first)
+  for link = first, after - 1 do
+    local time = run.moment[link]
+    if time < best and time >= from and given.which[link] == which
+      and (time > from or not is_later) then
       best = time
     end
   end
@@ -103,182 +110,192 @@ local function first_moment(run, state, which, from, is_later)
 end
 
 --- Whether any end is known, over or not.
-local function has_end(run, state)
-  if state.ends[1] then return true end
-  run.steps = run.steps + SCAN * #state.links
-  for _, link in ipairs(state.links) do
-    if link.which == "ends" and link.time < huge then return true end
-  end
-  return false
+local function has_end(run, i)
+  return run.ends[i][1] ~= nil or first_moment(run, i, "ends", -huge, false) < huge
 end
 
 --- Keeps the moment of a link, which does not change any more: the interval that gave it is over.
-local function keep(link)
-  local list, time = link.state[link.which], link.time
-  if time < huge then
-    local last = list[#list]
-    if last and last > time then table.insert(list, ordered.last(list, time) + 1, time)
-    else list[#list + 1] = time end
+local function keep(run, link)
+  local given, time = run.given, run.moment[link]
+  local i, which = given.owner[link], given.which[link]
+  run.moment[link] = huge
+  if time == huge then return end
+  local list = run[which][i]
+  if list == given[which][i] then
+    list = table.move(list, 1, #list, 1, { is_open = list.is_open })
+    run[which][i] = list
   end
-  link.time = huge
+  table.insert(list, ordered.last(list, time) + 1, time)
 end
 
 -- ---------------------------------------------------------------- intervals
 
 --- The end of an interval that begins at a time; false: all ends are over, there is no interval.
 --- Source: SMIL 3.0, 5.4.5, with the end at which the animation begins again.
-local function find_end(run, state, begin)
-  local is_used = state.was_empty and begin == state.after
-  local given = first_moment(run, state, "ends", begin, is_used)
-  local finish = math.min(begin + state.whole, given)
-  finish = math.min(math.max(finish, begin + state.least), begin + state.most)
-  if state.restart == "always" then
-    finish = math.min(finish, first_moment(run, state, "begins", begin, true))
+local function find_end(run, i, from)
+  local rule, is_used = run.given.rules[i], run.was_empty[i] and from == run.after[i]
+  local given = first_moment(run, i, "ends", from, is_used)
+  local till = math.min(from + rule.whole, given)
+  till = math.min(math.max(till, from + rule.least), from + rule.most)
+  if rule.restart == "always" then
+    till = math.min(till, first_moment(run, i, "begins", from, true))
   end
-  return finish, given < huge or state.end_is_open or not has_end(run, state)
+  return till, given < huge or run.ends[i].is_open or not has_end(run, i)
 end
 
 --- The interval after the last one. Source: SMIL 3.0, 5.4.3: one that is over at 0 does not count.
-local function find_next(run, state)
-  local from, is_later = state.after, false
-  if from > -huge and state.restart == "never" then return huge, huge end
+local function find_next(run, i)
+  local after, is_later = run.after[i], false
+  if after > -huge and run.given.rules[i].restart == "never" then return huge, huge end
   while not is_spent(run) do
-    local begin = first_moment(run, state, "begins", from, is_later)
-    if begin == huge then break end
-    local finish, is_there = find_end(run, state, begin)
+    local from = first_moment(run, i, "begins", after, is_later)
+    if from == huge then break end
+    local till, is_there = find_end(run, i, from)
     if not is_there then break end
-    if finish > 0 or begin == 0 and finish == 0 then return begin, finish end
-    is_later, from = finish <= begin, finish
+    if till > 0 or from == 0 and till == 0 then return from, till end
+    is_later, after = till <= from, till
     run.steps = run.steps + 1
   end
   return huge, huge
 end
 
-local function enqueue(run, state)
-  if state.is_queued then return end
-  state.is_queued = true
-  run.queue[#run.queue + 1] = state
+local function enqueue(run, i)
+  if run.is_queued[i] then return end
+  run.is_queued[i] = true
+  run.queue[#run.queue + 1] = i
 end
 
 --- Sets the moments of the animations that wait for this one.
-local function inform(run, state)
-  for _, link in ipairs(state.followers or NONE) do
-    local time = state[link.event] + link.offset
+local function inform(run, i)
+  local given, link = run.given, run.follower[i]
+  while link do
+    local time = run[given.event[link]][i] + given.offset[link]
     run.steps = run.steps + 1
-    if time ~= link.time then
-      link.time = time
-      enqueue(run, link.state)
+    if time ~= run.moment[link] then
+      run.moment[link] = time
+      enqueue(run, given.owner[link])
     end
+    link = run.next[link]
   end
 end
 
-local function may_change(run, state)
-  state.changes = state.wave == run.wave and state.changes + 1 or 1
-  state.wave = run.wave
-  return state.changes <= CHANGES
+local function may_change(run, i)
+  run.changes[i] = run.waves[i] == run.wave and run.changes[i] + 1 or 1
+  run.waves[i] = run.wave
+  return run.changes[i] <= CHANGES
 end
 
 --- Finds the interval that runs or comes next, which others may have changed.
-local function resolve(run, state)
-  local begin, finish
+local function resolve(run, i)
+  local from, till = run.from[i]
   run.steps = run.steps + 1
-  if state.is_active then
-    begin, finish = state.begin, (find_end(run, state, state.begin))
-  else
-    begin, finish = find_next(run, state)
-  end
-  local is_same = begin == state.begin and finish == state["end"]
-  if is_same or not may_change(run, state) then return end
-  state.begin, state["end"] = begin, finish
-  if state.is_active then state.to = finish end
-  inform(run, state)
-  expect(run, state, state.is_active and finish or begin)
+  if run.is_active[i] then till = find_end(run, i, from) else from, till = find_next(run, i) end
+  local is_same = from == run.from[i] and till == run.till[i]
+  if is_same or not may_change(run, i) then return end
+  run.from[i], run.till[i] = from, till
+  if run.is_active[i] then run.ended[i] = till end
+  inform(run, i)
+  expect(run, i, run.is_active[i] and till or from)
 end
 
+--- Animations that are added to the queue meanwhile are resolved after all that are in it.
 local function settle(run)
+  local queue, at = run.queue, 1
   run.wave = run.wave + 1
-  while run.queue[1] and not is_spent(run) do
-    local queue = run.queue
-    run.queue = {}
-    for _, state in ipairs(queue) do
-      state.is_queued = false
-      resolve(run, state)
-    end
+  while queue[at] and not is_spent(run) do
+    run.is_queued[queue[at]] = false
+    resolve(run, queue[at])
+    at = at + 1
   end
+  for k = #queue, 1, -1 do queue[k] = nil end
 end
 
-local function begin(run, state)
-  state.period = state.from and state.begin - state.from or 0
-  state.is_active = true
-  state.from, state.to = state.begin, state["end"]
-  expect(run, state, state.to)
+local function begin(run, i)
+  run.period[i] = run.begun[i] and run.from[i] - run.begun[i] or 0
+  run.is_active[i] = true
+  run.begun[i], run.ended[i] = run.from[i], run.till[i]
+  expect(run, i, run.till[i])
 end
 
-local function finish(run, state)
-  for _, link in ipairs(state.followers or NONE) do
+local function finish(run, i)
+  local link = run.follower[i]
+  while link do
     run.steps = run.steps + 1
-    keep(link)
+    keep(run, link)
+    link = run.next[link]
   end
-  state.is_active = false
-  run.last_end = math.max(run.last_end, state["end"])
-  state.after, state.was_empty = state["end"], state.begin == state["end"]
-  state.begin, state["end"] = huge, huge
-  enqueue(run, state)
+  run.is_active[i] = false
+  run.last_end = math.max(run.last_end, run.till[i])
+  run.after[i], run.was_empty[i] = run.till[i], run.from[i] == run.till[i]
+  run.from[i], run.till[i] = huge, huge
+  enqueue(run, i)
 end
 
 -- ---------------------------------------------------------------- the clock
 
---- Adds what a run knows of an animation. followers: its links to those that it waits for.
-local function start(run, state, number)
-  state.number, state.is_active, state.period = number, false, 0
-  state.after, state.begin, state["end"] = -huge, huge, huge
-  for _, link in ipairs(state.links) do
-    local other = run.states[link.of]
-    link.state, link.time = state, huge
-    other.followers = other.followers or {}
-    table.insert(other.followers, link)
+--- Each list of a run, and what is in it at first.
+local columns = { time = huge, place = false, is_active = false, is_queued = false, from = huge,
+                  till = huge, begun = false, ended = huge, after = -huge, was_empty = false,
+                  period = 0, changes = 0, waves = 0, follower = false }
+
+--- A run before its first time, of at most `most` steps, and `tries` for each animation and moment.
+local function start(given, most, tries)
+  local count, links = #given.rules, #given.of
+  local run = { given = given, heap = {}, queue = {}, wave = 0, steps = 0, last_end = 0,
+                most = most + tries * (count + links), moment = {}, next = {}, at = -huge }
+  for name, first in next, columns do
+    local list = {}
+    for i = 1, count do list[i] = first end
+    run[name] = list
   end
-  enqueue(run, state)
+  run.begins = table.move(given.begins, 1, count, 1, {})
+  run.ends = table.move(given.ends, 1, count, 1, {})
+  for link = 1, links do run.moment[link], run.next[link] = huge, false end
+  for link = links, 1, -1 do -- the first follower is informed first
+    local of = given.of[link]
+    run.next[link], run.follower[of] = run.follower[of], link
+  end
+  for i = 1, count do
+    run.most = run.most + tries * (#given.begins[i] + #given.ends[i])
+    if given.begins[i][1] then enqueue(run, i) end
+  end
+  return run
 end
 
---- Runs the animations up to a time. Returns the run, and whether it is whole: false if it takes
---- more than `most` steps, and `tries` for each animation and moment.
-local function run_to(timings, seconds, most, tries)
-  local run = { states = timings, heap = {}, queue = {}, wave = 0, steps = 0,
-                last_end = 0, most = most }
-  for i, state in ipairs(timings) do
-    start(run, state, i)
-    run.most = run.most + tries * (1 + #state.begins + #state.ends + #state.links)
-  end
+--- Lets time go on; false: that takes too many steps.
+local function go_on(run, seconds)
   settle(run)
-  while run.heap[1] and run.heap[1].time <= seconds and not is_spent(run) do
-    local state = run.heap[1]
-    remove(run.heap, state)
-    if state.is_active then finish(run, state) else begin(run, state) end
+  while run.heap[1] and run.time[run.heap[1]] <= seconds and not is_spent(run) do
+    local i = run.heap[1]
+    remove(run, i)
+    if run.is_active[i] then finish(run, i) else begin(run, i) end
     settle(run)
   end
-  return run, not is_spent(run)
+  run.at = seconds
+  return not is_spent(run)
 end
 
---- Gives each animation its last interval that has begun: `from`, nil where none has, `to`, and
---- is_active. False, message: they begin and end too often.
-function times.run(timings, seconds)
-  local _, is_whole = run_to(timings, seconds, STEPS, 1)
-  return is_whole, ("the animations begin and end too often until %g s: they take more than %d "
+--- The run of timings at a time. last: one that it may go on from; nil: there is none. False,
+--- message: they begin and end too often.
+function times.run(given, seconds, last)
+  local run = last and last.at <= seconds and last or start(given, STEPS, 1)
+  if go_on(run, seconds) then return run end
+  return false, ("the animations begin and end too often until %g s: they take more than %d "
     .. "steps"):format(seconds, STEPS)
 end
 
 --- How long they move: the end of the last interval that ends, and the longest period of what
 --- repeats for ever; 0: none.
-function times.measure(timings)
-  local run, is_whole = run_to(timings, huge, TRIES, TRIES)
+function times.measure(given)
+  local run = start(given, TRIES, TRIES)
+  local is_whole = go_on(run, huge)
   local last, period = is_whole and run.last_end or 0, 0
-  for _, state in ipairs(run.states) do
-    if state.is_active and state.to == huge then
-      if state.simple < huge then period = math.max(period, state.simple)
-      else last = math.max(last, state.from) end
+  for i, rule in ipairs(given.rules) do
+    if run.is_active[i] and run.ended[i] == huge then
+      if rule.simple < huge then period = math.max(period, rule.simple)
+      else last = math.max(last, run.begun[i]) end
     end
-    if not is_whole then period = math.max(period, state.period) end
+    if not is_whole then period = math.max(period, run.period[i]) end
   end
   return last, period
 end

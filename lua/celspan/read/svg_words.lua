@@ -53,4 +53,9 @@ function words.numbers(text, at, count)
   return list, at
 end
 
+--- A text that is the same for equal lists of texts, which may be nil.
+function words.key(...)
+  return ("%s\0"):rep(select("#", ...)):format(...)
+end
+
 return words

@@ -36,16 +36,19 @@ static const cs_svg_animation *moving_at(lua_State *L) {
 
 /* ---------------------------------------------------------------- what the document says */
 
-/* target: nil: it has no effect. */
+static int animations(lua_State *L) {
+  lua_pushinteger(L, (lua_Integer)self(L)->count);
+  return 1;
+}
+
+/* target: false: it has no effect. */
 static int animation(lua_State *L) {
-  if (luaL_checkinteger(L, 2) > (lua_Integer)self(L)->count)
-    return 0;
   const cs_svg_animation *it = animation_at(L);
   bool is_motion = it->node->element == CS_SVG_ELEMENT_ANIMATE_MOTION;
   if (it->target && (is_motion || it->name != CS_SVG_NAME_COUNT))
     lua_pushinteger(L, it->target->number);
   else
-    lua_pushnil(L);
+    lua_pushboolean(L, false);
   lua_pushinteger(L, it->name);
   lua_pushstring(L, it->node->tag);
   return 3;
@@ -53,12 +56,23 @@ static int animation(lua_State *L) {
 
 static int text(lua_State *L) {
   const cs_svg_cascade *styles = self(L)->styles;
-  cs_svg_name name = cs_svg_name_of(luaL_checkstring(L, 3));
   bool is_style = luaL_checkinteger(L, 2) == 0;
-  if (name == CS_SVG_NAME_COUNT || (is_style && !styles))
-    return 0;
-  lua_pushstring(L,
-                 is_style ? styles->values[name] : cs_svg_node_value(animation_at(L)->node, name));
+  const cs_svg_node *node = is_style ? NULL : animation_at(L)->node;
+  int last = lua_gettop(L);
+  luaL_argcheck(L, node || styles, 2, "no element is visited");
+  luaL_checkstack(L, last, "many names");
+  for (int i = 3; i <= last; i++) {
+    cs_svg_name name = cs_svg_name_of(luaL_checkstring(L, i));
+    luaL_argcheck(L, name != CS_SVG_NAME_COUNT, i, "no attribute");
+    lua_pushstring(L, node ? cs_svg_node_value(node, name) : styles->values[name]);
+  }
+  return last - 2;
+}
+
+/* The same for equal documents. */
+static int key(lua_State *L) {
+  cs_hash key = self(L)->reading->document->key;
+  lua_pushlstring(L, (const char *)&key, sizeof key);
   return 1;
 }
 
@@ -189,11 +203,20 @@ static int frames(lua_State *L) {
 /* ---------------------------------------------------------------- the clock */
 
 void cs_mover_open(lua_State *L) {
-  static const luaL_Reg methods[] = {
-      {"animation", animation}, {"text", text},     {"skip", skip},
-      {"refuse", refuse},       {"mix", mix},       {"distance", distance},
-      {"spot", spot},           {"place", place},   {"visit", visit},
-      {"count", count},         {"frames", frames}, {NULL, NULL}};
+  static const luaL_Reg methods[] = {{"key", key},
+                                     {"animations", animations},
+                                     {"animation", animation},
+                                     {"text", text},
+                                     {"skip", skip},
+                                     {"refuse", refuse},
+                                     {"mix", mix},
+                                     {"distance", distance},
+                                     {"spot", spot},
+                                     {"place", place},
+                                     {"visit", visit},
+                                     {"count", count},
+                                     {"frames", frames},
+                                     {NULL, NULL}};
   /* Even if it exists already: without memory it may be incomplete. */
   luaL_newmetatable(L, METATABLE);
   luaL_newlib(L, methods);

@@ -7,8 +7,11 @@
 
 /* function(mover, seconds) -> how long the drawing moves. seconds: nil: it is not moved.
  *
- *   mover:animation(number) -> target, attribute, tag     of an element that animates
- *   mover:text(number, name)     an attribute of one; number 0: a property of the visited element
+ *   mover:key() -> text                   the same for equal documents
+ *   mover:animations() -> count           of elements that animate
+ *   mover:animation(number) -> target | false, attribute, tag
+ *   mover:text(number, name, ...) -> text | nil, ...    attributes of one; number 0: properties of
+ *         the visited element
  *   mover:mix(number, property, share, from, composition, to, composition, is_by, last, round)
  *         see cs_svg_mixture; the property is of the visited element
  *   mover:distance(number, a, b) -> distance | nil: b does not mix

@@ -323,6 +323,12 @@ static celspan_status note_other_sheet(reader *r, const char *bytes, size_t size
              : CELSPAN_OK;
 }
 
+static cs_hash key_of(const char *bytes, size_t size) {
+  cs_hash hash = cs_hash_begin(0x737667u);
+  cs_hash_bytes(&hash, bytes, size);
+  return cs_hash_end(hash);
+}
+
 celspan_status cs_svg_document_read(celspan_context *context, const char *name, const char *bytes,
                                     size_t size, cs_svg_document *out) {
   *out = (cs_svg_document){0};
@@ -339,6 +345,8 @@ celspan_status cs_svg_document_read(celspan_context *context, const char *name, 
     status = cs_css_sheet_parse(&place, r.css, &out->sheet);
   out->has_geometry = out->has_geometry || out->sheet.has_geometry;
   out->has_motion = out->has_motion || out->sheet.has_motion;
+  if (out->animation_count > 0 || out->has_motion)
+    out->key = key_of(bytes, size);
   cs_mem_free(context->memory, r.css, r.css_capacity);
   cs_mem_free(context->memory, r.characters, r.character_capacity);
   return status;

@@ -47,6 +47,7 @@ typedef struct cs_svg_document {
   bool has_geometry;      /* a style gives places or sizes */
   bool has_motion;        /* a style names animations */
   size_t animation_count; /* elements that animate */
+  cs_hash key;            /* the same for equal texts, if anything of it moves */
   cs_svg_unread unread;
   cs_svg_variables variables; /* made while styles are read */
   cs_svg_measure page; /* of the outermost element; zero until its size has been read (build.c) */
