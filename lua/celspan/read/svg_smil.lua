@@ -117,7 +117,7 @@ local function read_times(mover)
   local function find(id)
     if not numbers then
       numbers = {}
-      for i = mover:animations(), 1, -1 do numbers[mover:text(i, "id") or ""] = i end
+      for i = #plan.tags, 1, -1 do numbers[mover:text(i, "id") or ""] = i end
     end
     return numbers[id]
   end
@@ -126,8 +126,11 @@ local function read_times(mover)
     known[key] = known[key] or rule_of(...)
     return known[key]
   end
-  for i = 1, mover:animations() do
+  repeat
+    local i = #plan.tags + 1
     plan.targets[i], plan.names[i], plan.tags[i] = mover:animation(i)
+  until not plan.tags[i]
+  for i = 1, #plan.tags do
     local begin, finish = mover:text(i, "begin", "end")
     plan.first[i] = #plan.of + 1
     plan.rules[i] = rule(mover:text(i, "dur", "repeatCount", "repeatDur", "min", "max", "restart",
@@ -135,7 +138,7 @@ local function read_times(mover)
     plan.begins[i] = begin and moments(mover, "begin", begin, "begins", plan, find) or AT_ONCE
     plan.ends[i] = finish and moments(mover, "end", finish, "ends", plan, find) or NONE
   end
-  plan.first[mover:animations() + 1] = #plan.of + 1
+  plan.first[#plan.tags + 1] = #plan.of + 1
   return plan
 end
 

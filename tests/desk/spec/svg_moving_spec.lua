@@ -589,6 +589,15 @@ describe("bad input", function()
     assert.is_true(peak() - before < 64 * 1024)
   end)
 
+  it("is the same, whether time goes on or back", function()
+    local text = box('<animate id="a" attributeName="x" by="40" dur="0.4s" begin="0;b.end+0.1s"/>'
+      .. '<animate id="b" attributeName="y" by="3" dur="0.3s" begin="a.end" end="a.end+0.2s"/>')
+    local on, back = read(text), read(text)
+    local found = {}
+    for i = 0, 40 do found[i] = x_at(on, i / 8) end
+    for i = 40, 0, -1 do assert.are.equal(found[i], x_at(back, i / 8), i) end
+  end)
+
   it("is read in time, with 20,000 animations", function()
     local list = {}
     for i = 1, 20000 do
@@ -599,6 +608,8 @@ describe("bad input", function()
     local art = read(box(table.concat(list)))
     assert.are.equal(20000, art.seconds)
     assert.are.equal(0.5, x_at(art, 19999.5))
+    -- each time goes on from the one before
+    for i = 1, 3 do assert.are.equal(0.5 + i / 64, x_at(art, 19999.5 + i / 64)) end
     assert.is_true(os.clock() - begun < 10)
   end)
 end)

@@ -36,13 +36,10 @@ static const cs_svg_animation *moving_at(lua_State *L) {
 
 /* ---------------------------------------------------------------- what the document says */
 
-static int animations(lua_State *L) {
-  lua_pushinteger(L, (lua_Integer)self(L)->count);
-  return 1;
-}
-
 /* target: false: it has no effect. */
 static int animation(lua_State *L) {
+  if (luaL_checkinteger(L, 2) > (lua_Integer)self(L)->count)
+    return 0;
   const cs_svg_animation *it = animation_at(L);
   bool is_motion = it->node->element == CS_SVG_ELEMENT_ANIMATE_MOTION;
   if (it->target && (is_motion || it->name != CS_SVG_NAME_COUNT))
@@ -204,7 +201,6 @@ static int frames(lua_State *L) {
 
 void cs_mover_open(lua_State *L) {
   static const luaL_Reg methods[] = {{"key", key},
-                                     {"animations", animations},
                                      {"animation", animation},
                                      {"text", text},
                                      {"skip", skip},

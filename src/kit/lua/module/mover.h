@@ -8,8 +8,7 @@
 /* function(mover, seconds) -> how long the drawing moves. seconds: nil: it is not moved.
  *
  *   mover:key() -> text                   the same for equal documents
- *   mover:animations() -> count           of elements that animate
- *   mover:animation(number) -> target | false, attribute, tag
+ *   mover:animation(number) -> target | false, attribute, tag     of an element that animates
  *   mover:text(number, name, ...) -> text | nil, ...    attributes of one; number 0: properties of
  *         the visited element
  *   mover:mix(number, property, share, from, composition, to, composition, is_by, last, round)
