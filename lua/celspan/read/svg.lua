@@ -37,10 +37,9 @@ local Art = fields.class("celspan.svg", "a drawing", { seconds = true, __move = 
 --- its documents say is kept: its own, and those of drawings that are images of it.
 local function clock()
   local plans = {}
-  return function(mover, seconds)
+  return function(mover, seconds, key)
     -- they are large, and few drawings move
     local smil, styles = require "celspan.svg_smil", require "celspan.svg_styles"
-    local key = mover:key()
     local plan = plans[key] or { smil.read(mover), styles.read() }
     plans[key] = plan
     if seconds then

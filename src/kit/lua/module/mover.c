@@ -66,13 +66,6 @@ static int text(lua_State *L) {
   return last - 2;
 }
 
-/* The same for equal documents. */
-static int key(lua_State *L) {
-  cs_hash key = self(L)->reading->document->key;
-  lua_pushlstring(L, (const char *)&key, sizeof key);
-  return 1;
-}
-
 static int skip(lua_State *L) {
   const cs_svg_mover *mover = self(L);
   const char *what = luaL_checkstring(L, 3);
@@ -200,19 +193,11 @@ static int frames(lua_State *L) {
 /* ---------------------------------------------------------------- the clock */
 
 void cs_mover_open(lua_State *L) {
-  static const luaL_Reg methods[] = {{"key", key},
-                                     {"animation", animation},
-                                     {"text", text},
-                                     {"skip", skip},
-                                     {"refuse", refuse},
-                                     {"mix", mix},
-                                     {"distance", distance},
-                                     {"spot", spot},
-                                     {"place", place},
-                                     {"visit", visit},
-                                     {"count", count},
-                                     {"frames", frames},
-                                     {NULL, NULL}};
+  static const luaL_Reg methods[] = {
+      {"animation", animation}, {"text", text},     {"skip", skip},
+      {"refuse", refuse},       {"mix", mix},       {"distance", distance},
+      {"spot", spot},           {"place", place},   {"visit", visit},
+      {"count", count},         {"frames", frames}, {NULL, NULL}};
   /* Even if it exists already: without memory it may be incomplete. */
   luaL_newmetatable(L, METATABLE);
   luaL_newlib(L, methods);
@@ -243,7 +228,8 @@ celspan_status cs_mover_run(void *user, cs_svg_mover *mover, double *seconds) {
     lua_pushnumber(L, mover->reading->seconds);
   else
     lua_pushnil(L);
-  int outcome = lua_pcall(L, 2, 1, 0);
+  lua_pushinteger(L, (lua_Integer)mover->reading->document->key.a);
+  int outcome = lua_pcall(L, 3, 1, 0);
   by->mover = NULL;
   if (outcome == LUA_OK || by->status != CELSPAN_OK) {
     *seconds = lua_tonumber(L, -1);

@@ -5,9 +5,9 @@
 
 #include "readers/svg/motion/motion.h"
 
-/* function(mover, seconds) -> how long the drawing moves. seconds: nil: it is not moved.
+/* function(mover, seconds, key) -> how long the drawing moves. seconds: nil: it is not moved. key: an
+ * integer, the same for equal documents.
  *
- *   mover:key() -> text                   the same for equal documents
  *   mover:animation(number) -> target | false, attribute, tag     of an element that animates
  *   mover:text(number, name, ...) -> text | nil, ...    attributes of one; number 0: properties of
  *         the visited element
