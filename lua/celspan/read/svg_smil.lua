@@ -467,7 +467,9 @@ smil.measure = times.measure
 
 --- Moves the document to a time.
 function smil.move(mover, plan, seconds)
-  local run, message = times.run(plan, seconds, plan.run)
+  local last = plan.run
+  plan.run = nil -- an error, such as of a limit of steps, leaves a run in the middle
+  local run, message = times.run(plan, seconds, last)
   if not run then mover:refuse(message) end
   plan.run = run
   local active, shares, rounds = {}, {}, {}
