@@ -28,7 +28,7 @@ ninja -C "$build"]],
 build=${CELSPAN_BUILD:-build-rock}
 install -D -m 755 "$build/celspan.so" "$(LIBDIR)/celspan.so" &&
 install -D -m 644 "$build/lua/celspan.d.lua" "$(PREFIX)/annotations/celspan.d.lua" &&
-for module in plugins/oiio/celspan-picture.so plugins/type/celspan-art.so plugins/icc/celspan-colour.so \
+for module in plugins/oiio/celspan-picture.so plugins/type/celspan-type.so plugins/icc/celspan-colour.so \
   plugins/cairo/celspan-pdf.so; do
   if [ -f "$build/src/kit/$module" ]; then
     install -D -m 755 "$build/src/kit/$module" "$(LIBDIR)/celspan/${module##*/}" || exit 1

@@ -63,7 +63,7 @@ make_source() {
   say "the source archive"
   [ -z "$(git status --porcelain)" ] || say "changes that are not committed are left out"
   rm -rf "$work/plain"
-  quietly source meson setup "$work/plain" -Dlua=disabled -Dpictures=disabled -Dart=disabled \
+  quietly source meson setup "$work/plain" -Dlua=disabled -Dpictures=disabled -Dtype=disabled \
     -Dcolour=disabled -Dspaces=disabled -Dtests=false
   quietly source meson dist -C "$work/plain" --no-tests --formats gztar --allow-dirty
   mv "$work/plain/meson-dist/$source" "$dist"

@@ -169,7 +169,7 @@ export CC=clang CXX=clang++ PKG_CONFIG_PATH=$prefix/lib/pkgconfig CFLAGS=${small
 export LDFLAGS="-Wl,-Bsymbolic -Wl,--gc-sections -Wl,--exclude-libs,${hidden%:}"
 meson setup build source --prefix="/build/$name" --libdir=lib --strip \
   -Doptimization=s -Ddebug=false \
-  -Dtests=false -Dpictures=disabled -Draster=enabled -Dart=enabled -Dcolour=enabled \
+  -Dtests=false -Dpictures=disabled -Draster=enabled -Dtype=enabled -Dcolour=enabled \
   -Dspaces=disabled -Davif=disabled -Dwebp=enabled -Dpdf=disabled -Dweb=enabled
 ninja -C build -j "$(nproc)"
 meson install -C build --quiet --no-rebuild
@@ -179,7 +179,7 @@ mkdir -p "lua/$name/lib"
 mv "$tree/lib/lua" "lua/$name/lib"
 cp /usr/lib/libunibreak.so.1 "$tree/lib/celspan"
 # shellcheck disable=SC2016
-patchelf --set-rpath '$ORIGIN' "$tree/lib/celspan/celspan-art.so"
+patchelf --set-rpath '$ORIGIN' "$tree/lib/celspan/celspan-type.so"
 mkdir -p "$tree/share/celspan/examples"/{fonts,type} "$tree/share/doc/celspan/docs"
 cp source/packaging/examples/*.lua "$tree/share/celspan/examples"
 # The examples in the pages use this font.
@@ -217,7 +217,7 @@ cat >"$tree/share/doc/celspan/libraries/README" <<TEXT
 The program and its modules contain these libraries, as Debian has them: Lua, zlib, expat,
 HarfBuzz, FriBidi, libunibreak, Little CMS, libmicrohttpd, libpng, libjpeg-turbo, libwebp,
 OpenEXR's reader, and libtiff with what it decompresses by. Their licences are beside this file.
-Two are under the LGPL, FriBidi in lib/celspan/celspan-art.so and libmicrohttpd in
+Two are under the LGPL, FriBidi in lib/celspan/celspan-type.so and libmicrohttpd in
 lib/celspan/celspan-web.so: celspan's source builds these files again with other versions of them
 (packaging/linux.sh).
 TEXT

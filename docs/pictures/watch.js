@@ -1,8 +1,8 @@
 // The steps of watch.sh: a dark window with the rows of a shot, the values, and the form of a render.
 await page.call("Emulation.setDeviceMetricsOverride",
   { width: 1280, height: 800, deviceScaleFactor: 1, mobile: false });
-const isSettled = `document.querySelector("#stage").dataset.frame === "60"
-  && !("stale" in document.querySelector("#stage").dataset)
+const isSettled = `document.querySelector("#canvas").dataset.frame === "60"
+  && !("stale" in document.querySelector("#canvas").dataset)
   && document.querySelector("#timeline").ariaBusy === "false"`;
 const shot = async name => {
   await page.until(isSettled);

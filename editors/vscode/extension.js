@@ -79,19 +79,19 @@ const PANEL = `<!doctype html><html lang="en"><head><meta charset="utf-8"><title
   ol { margin: 0; padding-left: 1.6em; } #error { color: var(--vscode-errorForeground); }
   button { background: none; border: 0; color: var(--vscode-textLink-foreground); cursor: pointer; }
 </style></head><body>
-<canvas id="stage" role="img" aria-label="The frame" width="1" height="1"></canvas>
+<canvas id="canvas" role="img" aria-label="The frame" width="1" height="1"></canvas>
 <label>Frame <input id="scrub" type="range" min="1" max="1" value="1"><output id="frame">1</output></label>
 <div><p id="error" role="alert"></p><ol id="hits"></ol></div>
 <script nonce="NONCE">
   const host = acquireVsCodeApi(), here = id => document.getElementById(id);
-  const stage = here("stage"), pen = stage.getContext("2d");
+  const canvas = here("canvas"), pen = canvas.getContext("2d");
   let size = [1, 1];
   const takes = {
     film(film) { here("scrub").max = film.frames; },
     picture({ width, height, bytes, units, number }) {
       size = units;
-      stage.width = width;
-      stage.height = height;
+      canvas.width = width;
+      canvas.height = height;
       pen.putImageData(new ImageData(new Uint8ClampedArray(bytes), width, height), 0, 0);
       here("frame").value = number;
       here("scrub").value = number;
@@ -118,13 +118,13 @@ const PANEL = `<!doctype html><html lang="en"><head><meta charset="utf-8"><title
     },
     errors(list) {
       here("error").textContent = list.length > 0 ? list[0].message : "";
-      stage.classList.toggle("old", list.length > 0);
+      canvas.classList.toggle("old", list.length > 0);
     },
   };
   addEventListener("message", event => takes[event.data.kind](event.data.value));
   here("scrub").oninput = () => host.postMessage({ frame: Number(here("scrub").value) });
-  stage.onclick = event => host.postMessage({ at: [
-    event.offsetX / stage.clientWidth * size[0], event.offsetY / stage.clientHeight * size[1]] });
+  canvas.onclick = event => host.postMessage({ at: [
+    event.offsetX / canvas.clientWidth * size[0], event.offsetY / canvas.clientHeight * size[1]] });
 </script></body></html>`;
 
 const MOST = 960; // pixels of a side of the picture in the panel

@@ -23,8 +23,8 @@ async function size() {
       { width: wide, height: height + 600, deviceScaleFactor: 1, mobile: false });
     await page.pause(1);
     await page.until(`(one => one.dataset.size && !one.hasAttribute("data-stale"))(
-      document.querySelector("#stage"))`);
-    const has = await page.get(`document.querySelector("#stage").dataset.size`);
+      document.querySelector("#canvas"))`);
+    const has = await page.get(`document.querySelector("#canvas").dataset.size`);
     if (has === `${width}x${height}`) return;
     wide += width - has.split("x")[0];
     if (wide > 2 * width + 400 || ++tries === 20) throw new Error(`the picture has ${has}`);
@@ -40,13 +40,13 @@ const middle = list => [...list].sort((a, b) => a - b)[list.length >> 1];
 
 /** Milliseconds from an act in the page until an attribute of the picture changes. */
 const timed = (act, name) => page.get(`new Promise(done => {
-  const stage = document.querySelector("#stage"), old = stage.dataset.${name};
+  const canvas = document.querySelector("#canvas"), old = canvas.dataset.${name};
   const began = performance.now();
   new MutationObserver((_, watcher) => {
-    if (stage.dataset.${name} === old) return;
+    if (canvas.dataset.${name} === old) return;
     watcher.disconnect();
     requestAnimationFrame(() => done(performance.now() - began));
-  }).observe(stage, { attributes: true });
+  }).observe(canvas, { attributes: true });
   ${act};
 })`);
 
@@ -65,14 +65,14 @@ async function several(count, act, name) {
 
 /** Milliseconds from writing the script until the new picture is painted. */
 async function save(i) {
-  const old = await page.get(`document.querySelector("#stage").dataset.build`);
+  const old = await page.get(`document.querySelector("#canvas").dataset.build`);
   const painted = page.get(`new Promise(done => {
-    const stage = document.querySelector("#stage");
+    const canvas = document.querySelector("#canvas");
     new MutationObserver((_, watcher) => {
-      if (stage.dataset.build === "${old}") return;
+      if (canvas.dataset.build === "${old}") return;
       watcher.disconnect();
       requestAnimationFrame(() => done(Date.now()));
-    }).observe(stage, { attributes: true });
+    }).observe(canvas, { attributes: true });
   })`);
   const began = Date.now();
   appendFileSync(SHOT, `-- ${i}\n`);
@@ -116,7 +116,7 @@ async function first(count) {
   const list = [];
   await page.call("Page.addScriptToEvaluateOnNewDocument", { source: `
     (function look() {
-      if (document.querySelector("#stage")?.dataset.frame) window.firstAt = performance.now();
+      if (document.querySelector("#canvas")?.dataset.frame) window.firstAt = performance.now();
       else requestAnimationFrame(look);
     })();` });
   for (let i = 0; i < count; i++) {
@@ -160,8 +160,8 @@ async function play(seconds, from = 1) {
   await page.pause(1);
   const server = serverTime(), own = pageTime();
   await page.get(`(() => { window.seen = new Set();
-    new MutationObserver(() => seen.add(document.querySelector("#stage").dataset.frame))
-      .observe(document.querySelector("#stage"), { attributes: true }); })()`);
+    new MutationObserver(() => seen.add(document.querySelector("#canvas").dataset.frame))
+      .observe(document.querySelector("#canvas"), { attributes: true }); })()`);
   await page.press(" ");
   await page.pause(seconds);
   await page.press(" ");
@@ -196,7 +196,7 @@ async function measure(said) {
   said.zoom_ms = await several(100, () => `document.querySelector("#desk").dispatchEvent(
     new WheelEvent("wheel", { deltaY: -40, clientX: 700, clientY: 400 }))`, "size");
   await page.press("0");
-  await page.until(`document.querySelector("#stage").dataset.size === "1280x720"`);
+  await page.until(`document.querySelector("#canvas").dataset.size === "1280x720"`);
   begin("pictures that travel");
   for (const ending of ["png", "rgba", "runs"]) {
     said[ending] = await travel(ending, 48).catch(() => null); // older pages have other modules

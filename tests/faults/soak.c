@@ -116,7 +116,7 @@ static void take_film(soak *k) {
   stage_item *item = &k->stage.items[0];
   lua_pushvalue(L, 1);
   lua_pushinteger(L, seed);
-  lua_pushboolean(L, TEST_PICTURES && TEST_ART);
+  lua_pushboolean(L, TEST_PICTURES && TEST_TYPE);
   if (!CHECK(lua_pcall(L, 2, 1, 0) == LUA_OK))
     fprintf(stderr, "seed %lld: %s\n", (long long)seed, lua_tostring(L, -1));
   lua_rawseti(L, LUA_REGISTRYINDEX, item->film);

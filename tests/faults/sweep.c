@@ -266,7 +266,7 @@ static void sweep_sink(sweep *w) {
 
 static bool is_skipped(const sweep *w) {
   bool has_modules = TEST_PICTURES || !stage_render_text(&w->stage, w->render, "has_modules");
-  bool has_type = TEST_ART || !stage_render_text(&w->stage, w->render, "has_type");
+  bool has_type = TEST_TYPE || !stage_render_text(&w->stage, w->render, "has_type");
   return !has_modules || !has_type;
 }
 

@@ -7,7 +7,7 @@ local present = require "tests.support.present"
 describe("the spans of", function()
   for _, case in ipairs(golden.cases()) do
     it(case:match "golden/(.*)", function()
-      if not present.art() and case:find "/text/" then pending "the art module was not built" end
+      if not present.type() and case:find "/text/" then pending "the type module was not built" end
       local text = assert(golden.actual(case))
       local accepted = assert(golden.expected(case),
         case .. ".spans is missing: see tests/golden/accept.lua")

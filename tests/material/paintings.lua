@@ -8,7 +8,7 @@
 -- the picture merged by the program that made the file, by more than 8 of 255 over white, blended
 -- as coded; and the notes about blend modes, effects and others. The last line counts them.
 local celspan = require "celspan"
-local core = require "tests.support.own" "celspan.core"
+local native = require "tests.support.own" "celspan.native"
 local layers = require "celspan.layers"
 local merged = require "tests.support.merged"
 
@@ -21,7 +21,7 @@ end
 
 --- The layers over white, blended as coded: their codes are used as linear light.
 local function mixed_as_coded(path)
-  local painting = assert(core.painting(path))
+  local painting = assert(native.painting(path))
   local inside, all = {}, {}
   for i, layer in ipairs(painting.layers) do -- a group comes after its layers
     local object = layer.pixels and celspan.image { pixels = layer.pixels, colour = "linear",

@@ -47,8 +47,8 @@ options() {
   echo -Dpictures=disabled -Dcolour=disabled -Dweb=disabled -Dtests=false -Doptimization=1 \
     -Ddebug=false
   case $1 in
-  musl | wasm | memory) echo -Dmodules=false -Draster=disabled -Dart=disabled ;;
-  *) echo -Draster=enabled -Dart=enabled ;;
+  musl | wasm | memory) echo -Dmodules=false -Draster=disabled -Dtype=disabled ;;
+  *) echo -Draster=enabled -Dtype=enabled ;;
   esac
   # Meson takes the version of emcc for one of clang that does not know C17, which it is set to.
   [ "$1" != wasm ] || echo -D{,spanfile:,planefile:}c_std=none
@@ -58,7 +58,7 @@ options() {
 build() {
   local folder=$out/$1/build log=$out/$1/log targets=("${programs[@]}")
   [[ $1 =~ musl|wasm|memory ]] || targets+=(examples/example_{painting,letters}
-    src/kit/plugins/raster/celspan-raster.so src/kit/plugins/type/celspan-art.so)
+    src/kit/plugins/raster/celspan-raster.so src/kit/plugins/type/celspan-type.so)
   [ "$1" != wasm ] || targets=("${targets[@]/%/.js}")
   mkdir -p "$out/$1"
   {

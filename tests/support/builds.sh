@@ -26,13 +26,13 @@ absent() {
 
 without_lua() {
   quietly env CXX=/nonexistent/c++ meson setup "$tree/core" "${quick[@]}" -Dlua=disabled \
-    -Dpictures=disabled -Draster=disabled -Dart=disabled -Dcolour=disabled -Dpdf=disabled \
+    -Dpictures=disabled -Draster=disabled -Dtype=disabled -Dcolour=disabled -Dpdf=disabled \
     -Dtests=false
   quietly ninja -C "$tree/core"
   "$tree/core/examples/example_memory" | grep -q '#'
   absent "$tree/core" 'libcelspan_lua.a'
   absent "$tree/core" 'celspan.so'
-  absent "$tree/core" 'celspan-art.so'
+  absent "$tree/core" 'celspan-type.so'
   absent "$tree/core" 'celspan-colour.so'
   absent "$tree/core" 'celspan-pdf.so'
   absent "$tree/core" 'celspan-web.so'
@@ -40,7 +40,7 @@ without_lua() {
 
 release() {
   quietly meson setup "$tree/release" --buildtype=release -Dlua=disabled -Dpictures=disabled \
-    -Dart=disabled -Dcolour=disabled -Dtests=false
+    -Dtype=disabled -Dcolour=disabled -Dtests=false
   meson introspect --buildoptions "$tree/release" >"$tree/options"
   grep -q '"name": "debug", "value": false' "$tree/options"
   grep -q '"name": "optimization", "value": "3"' "$tree/options"

@@ -88,8 +88,8 @@ end
 --- Whether a question needs a module that was not built.
 function golden.lacks_module(question)
   local script = question:match "^render (%S+)"
-  if not script then return question:find "^example [pl]" and not present.art() end
-  return shipped.lacks_module(script) or script:find "/text/" and not present.art()
+  if not script then return question:find "^example [pl]" and not present.type() end
+  return shipped.lacks_module(script) or script:find "/text/" and not present.type()
 end
 
 --- The numbers of a film's first and last frame.

@@ -43,7 +43,7 @@ installed celspan.d.lua >/dev/null
 "$tree/embed" | grep -q '#'
 
 module=$(dirname "$(installed celspan.so)")
-LUA_PATH="" LUA_CPATH="$module/?.so" lua5.4 - "$(find "$tree" -name 'celspan-art.so')" <<'LUA'
+LUA_PATH="" LUA_CPATH="$module/?.so" lua5.4 - "$(find "$tree" -name 'celspan-type.so')" <<'LUA'
 local celspan, ease = require "celspan", require "celspan.ease"
 assert(celspan._VERSION and ease "inOutSine")
 local dot = celspan.circle{ centre = {12, 6}, radius = 5, texture = "#ff8800" }

@@ -35,7 +35,7 @@ end
 
 --- Whether the module for type and XML exists: without it there are no letters, no drawings, and no
 --- paintings that are archives.
-function present.art() return has("celspan-art.so", "info scripts/paintings/valley.ora") end
+function present.type() return has("celspan-type.so", "info scripts/paintings/valley.ora") end
 
 --- Whether there is a module for colour profiles: without it, profiles are not understood.
 function present.colour()

@@ -31,9 +31,9 @@ function shipped.lacks_module(path)
       if text:find("celspan." .. name, 1, true) then return true end
     end
   end
-  if path:find "/paper/" then return not (present.pictures() and present.art()) end
+  if path:find "/paper/" then return not (present.pictures() and present.type()) end
   return calls("image", "picture", "trace") and not present.pictures()
-    or calls("text", "glyphs", "layers", "svg") and not present.art()
+    or calls("text", "glyphs", "layers", "svg") and not present.type()
 end
 
 return shipped

@@ -12,7 +12,7 @@ local watching = {}
 
 --- Code that precedes the steps in the page.
 local HELP = [[
-  const stage = name => `document.querySelector("#stage").dataset.${name}`;
+  const canvas = name => `document.querySelector("#canvas").dataset.${name}`;
   const text = id => page.get(`document.querySelector("#${id}").textContent`);
 ]]
 

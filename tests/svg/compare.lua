@@ -11,7 +11,7 @@
 -- Drawings whose picture shows the letters UB are not compared, because no renderer has to match
 -- it: the specification does not define the result. The last line is "N of M drawings pass".
 local celspan = require "celspan"
-local core = require "tests.support.own" "celspan.core"
+local native = require "tests.support.own" "celspan.native"
 
 local MOST_OFF, MOST_SHARE = 24, 0.005
 local ALL = "all was drawn"
@@ -107,7 +107,7 @@ end
 --- Compares one drawing; returns whether it passes and why not. caption: rows at the bottom that do
 --- not count.
 local function compare(svg, png, caption)
-  local drawing, message = core.read_svg(svg, fonts, "srgb")
+  local drawing, message = native.read_svg(svg, fonts, "srgb")
   if not drawing then return false, "refused: " .. message:gsub("^.*/", "") end
   local reference = celspan.image { file = png }
   local _, _, w, h = reference:bounds()

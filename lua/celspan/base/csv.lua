@@ -5,7 +5,7 @@
 --
 -- Fields may be in quotes, where "" is a quote and a line may end. Lines end with CR LF or LF;
 -- empty lines are skipped. Every row has as many fields as the first.
-local core = require "celspan.core"
+local native = require "celspan.native"
 local fields = require "celspan.fields"
 local files = require "celspan.files"
 
@@ -124,8 +124,8 @@ local function row_class(header)
   end
   return { __index = function(_, name)
     if type(name) ~= "string" or is_named[name] then return nil end
-    local hint = core.nearest(name, names)
-    core.refuse(("csv: there is no column '%s'; %s"):format(name, hint
+    local hint = native.nearest(name, names)
+    native.refuse(("csv: there is no column '%s'; %s"):format(name, hint
       and ("did you mean '%s'?"):format(hint) or "there are " .. table.concat(names, ", ")))
   end }
 end
@@ -191,15 +191,15 @@ local function check_options(options)
   fields.check("csv", options, known)
   local separator = options.separator
   if separator and (#separator ~= 1 or separator:find '["\r\n]') then
-    core.refuse("csv: field 'separator' must be one character, and no quote or end of a line")
+    native.refuse("csv: field 'separator' must be one character, and no quote or end of a line")
   end
   local decimal = options.decimal
   if decimal and decimal ~= "." and decimal ~= "," then
-    core.refuse(("csv: field 'decimal' must be \".\" or \",\", got %q"):format(decimal))
+    native.refuse(("csv: field 'decimal' must be \".\" or \",\", got %q"):format(decimal))
   end
   for column, kind in pairs(options.types or {}) do
     if not readers[kind] then
-      core.refuse(("csv: the type of column '%s' must be \"number\", \"boolean\" or \"string\"")
+      native.refuse(("csv: the type of column '%s' must be \"number\", \"boolean\" or \"string\"")
         :format(fields.key(column)))
     end
   end
@@ -217,7 +217,7 @@ end
 ---@return table[]? rows rows[i][j], and rows[i].name with a header
 ---@return string? message
 function csv.decode(text, options)
-  if type(text) ~= "string" then core.refuse("csv: decode takes a string, got " .. type(text)) end
+  if type(text) ~= "string" then native.refuse("csv: decode takes a string, got " .. type(text)) end
   options = options or {}
   check_options(options)
   if #text > csv.most_bytes then
@@ -234,7 +234,9 @@ end
 ---@return table[]? rows rows[i][j], and rows[i].name with a header
 ---@return string? message
 function csv.read(path, options)
-  if type(path) ~= "string" then core.refuse("csv: read takes a file name, got " .. type(path)) end
+  if type(path) ~= "string" then
+    native.refuse("csv: read takes a file name, got " .. type(path))
+  end
   options = options or {}
   check_options(options)
   local text, message = files.read_found(path, csv.most_bytes)

@@ -1,6 +1,6 @@
 --- Lines measured by their length (src/kit/lua/nouns/ruler.c): where a place along a path is, and
 --- which way it goes there.
-local core = require "celspan.core"
+local native = require "celspan.native"
 local fields = require "celspan.fields"
 local pathdata = require "celspan.pathdata"
 
@@ -32,7 +32,7 @@ end
 --- The curve of path data or of contours; nil and a message if path data are damaged. noun: for
 --- messages.
 function curves.of(noun, line)
-  local ruler, length, is_closed, x, y = core.ruler(noun, line)
+  local ruler, length, is_closed, x, y = native.ruler(noun, line)
   if not ruler then return nil, length end
   if not x then
     local first = type(line) == "string" and pathdata.commands(line)[1] or line[1]
@@ -56,8 +56,10 @@ function curves.read(noun, outline, field)
   local line = line_of(outline)
   fields.expect_kind(line, outline, "%s: %s must be path data, contours or a path", noun, field)
   local curve, message = curves.of(noun, line)
-  if not curve then core.refuse(("%s: %s: %s"):format(noun, field, message)) end
-  if curve.length == 0 then core.refuse(("%s: %s: the path has no length"):format(noun, field)) end
+  if not curve then native.refuse(("%s: %s: %s"):format(noun, field, message)) end
+  if curve.length == 0 then
+    native.refuse(("%s: %s: the path has no length"):format(noun, field))
+  end
   return curve
 end
 
@@ -65,7 +67,7 @@ end
 --- the end, the curve continues straight. A curve without a length is one point.
 function Curve:at(length)
   if self.length == 0 then return self.x, self.y, 1, 0 end
-  return core.ruler_at(self.ruler, length)
+  return native.ruler_at(self.ruler, length)
 end
 
 return fields.seal("curves", curves)

@@ -1,5 +1,5 @@
 --- Checks the arguments of the library's functions, with the messages of the C constructors.
-local core = require "celspan.core"
+local native = require "celspan.native"
 
 local fields = {}
 
@@ -57,7 +57,7 @@ function fields.key(value) return type(value) == "string" and value or fields.sh
 --- Raises an error unless the option `space` is right or missing.
 function fields.space(noun, space)
   if space ~= nil and space ~= "linear" and space ~= "srgb" then
-    core.refuse(("%s: space must be \"linear\" or \"srgb\", got %s"):format(noun,
+    native.refuse(("%s: space must be \"linear\" or \"srgb\", got %s"):format(noun,
       type(space) == "string" and ("%q"):format(space) or fields.shown(space)))
   end
 end
@@ -65,7 +65,7 @@ end
 --- The end of a message about a name that is not among `names`: "; did you mean 'min'?"; nil if
 --- none is near.
 function fields.hint(name, names)
-  local near = type(name) == "string" and core.nearest(name, names)
+  local near = type(name) == "string" and native.nearest(name, names)
   return near and ("; did you mean '%s'?"):format(near) or nil
 end
 
@@ -79,18 +79,18 @@ end
 --- `names`.
 local function refuse_name(noun, name, names)
   table.sort(names)
-  core.refuse(("%s has no '%s'%s"):format(noun, name, fields.choice(name, names)))
+  native.refuse(("%s has no '%s'%s"):format(noun, name, fields.choice(name, names)))
 end
 
 --- Raises an error unless `holds`: a sentence, and the value that does not go with it. text: the
 --- format of the sentence, for the arguments after it.
 function fields.expect(holds, value, text, ...)
-  if not holds then core.refuse(text:format(...) .. ", got " .. fields.shown(value)) end
+  if not holds then native.refuse(text:format(...) .. ", got " .. fields.shown(value)) end
 end
 
 --- The same, with the kind of the value alone.
 function fields.expect_kind(holds, value, text, ...)
-  if not holds then core.refuse(text:format(...) .. ", got " .. fields.kind(value)) end
+  if not holds then native.refuse(text:format(...) .. ", got " .. fields.kind(value)) end
 end
 
 --- Raises an error unless `holds`: `value` must be as `rule` says. what: "echo: field 'fade'".
@@ -176,7 +176,7 @@ end
 local function keep_callers(methods)
   for name, method in next, methods do
     if type(method) == "function" and name:sub(1, 2) ~= "__" then
-      methods[name] = core.entry(method)
+      methods[name] = native.entry(method)
     end
   end
 end
@@ -222,11 +222,11 @@ function fields.check(noun, given, known)
   table.sort(names)
   local unknown = unknown_in(given, known)
   if unknown then
-    core.refuse(("%s: unknown field '%s'%s"):format(noun, unknown,
+    native.refuse(("%s: unknown field '%s'%s"):format(noun, unknown,
       fields.hint(unknown, names) or "; the fields are " .. table.concat(names, ", ")))
   end
   if known[1] == nil and rawlen(given) > 0 then
-    core.refuse(("%s: takes named fields only, but was given a list"):format(noun))
+    native.refuse(("%s: takes named fields only, but was given a list"):format(noun))
   end
   for _, name in ipairs(names) do
     local value = given[name]

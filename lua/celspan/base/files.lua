@@ -1,6 +1,6 @@
 --- Whole files: reads them up to a limit, and writes them so that only complete files appear.
 --- A pipe or a device is refused, and not waited for.
-local core = require "celspan.core"
+local native = require "celspan.native"
 
 local files = {}
 
@@ -12,12 +12,12 @@ files.MOST_CAPTIONS = 64 * 1024 * 1024 -- bytes of a file of captions
 ---@param most integer Bytes
 ---@return string? text
 ---@return string? message
-function files.read(path, most) return core.file_text(path, most) end
+function files.read(path, most) return native.file_text(path, most) end
 
 --- Reads a file named in a script, which is beside the caller's file, or else beside the script.
 --- read(path, ...): returns what it has read, or nil and a message.
 function files.found(path, read, ...)
-  local found_at, tried = core.find(path)
+  local found_at, tried = native.find(path)
   local value, message = read(found_at, ...)
   if value or not tried then return value, message end
   return nil, ("%s; also looked for at %s"):format(message, tried)
@@ -33,7 +33,7 @@ function files.read_found(path, most) return files.found(path, files.read, most)
 --- celspan.read: the text of a file named in a script.
 function files.text(path)
   if type(path) ~= "string" then
-    core.refuse("celspan: read takes a file name, got " .. type(path))
+    native.refuse("celspan: read takes a file name, got " .. type(path))
   end
   return files.read_found(path, MOST_BYTES)
 end

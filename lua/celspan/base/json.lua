@@ -4,7 +4,7 @@
 --
 -- Objects and arrays become tables, null becomes json.null. A name that is twice in an object has
 -- its last value.
-local core = require "celspan.core"
+local native = require "celspan.native"
 local fields = require "celspan.fields"
 
 local json = { null = setmetatable({}, { __tostring = function() return "null" end }) }
@@ -23,7 +23,7 @@ function json.decode(text)
   if #text > json.most_bytes then
     return nil, ("the text has %d bytes; at most %d are read"):format(#text, json.most_bytes)
   end
-  return core.json(text, json.null)
+  return native.json(text, json.null)
 end
 
 --- Reads a value from a file.

@@ -2,7 +2,7 @@
 --
 -- "mouth C", "mouth-C" and "mouth/C" are the C of the set "mouth". "mouth/C" is also the child "C"
 -- of a group that is named "mouth", and so is its child "mouth C".
-local core = require "celspan.core"
+local native = require "celspan.native"
 local fields = require "celspan.fields"
 local ordered = require "celspan.ordered"
 
@@ -76,16 +76,16 @@ end
 --- Checks that a set has this member; false shows no member. Returns the members of the set.
 local function check(noun, whole, parts, set, choice)
   if type(set) ~= "string" or type(choice) ~= "string" and choice ~= false then
-    core.refuse(("%s takes a name for each set, such as { mouth = \"C\" }, got %s = %s"):format(
+    native.refuse(("%s takes a name for each set, such as { mouth = \"C\" }, got %s = %s"):format(
       noun, fields.key(set), type(choice) == "string" and choice or fields.kind(choice)))
   end
   local members, names = sets.members(parts, set)
   if #names == 0 then
-    core.refuse(("%s: %s has no parts named '%s A', '%s B' and so on%s"):format(noun, whole, set,
+    native.refuse(("%s: %s has no parts named '%s A', '%s B' and so on%s"):format(noun, whole, set,
       set, sets.hint(parts, set)))
   end
   if choice and not members[choice] then
-    core.refuse(("%s: the parts of '%s' are %s, and not '%s'%s"):format(noun, set,
+    native.refuse(("%s: the parts of '%s' are %s, and not '%s'%s"):format(noun, set,
       table.concat(names, ", "), choice, fields.hint(choice, names) or ""))
   end
   return members

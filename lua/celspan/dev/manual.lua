@@ -2,7 +2,7 @@
 --- of `celspan help lua`. The fields of nouns come from their rows in C (src/kit/lua/nouns), the
 --- rest from celspan.annotations and from the annotations in the modules. One file, because
 --- annotations and pages show the same rows.
-local core = require "celspan.core"
+local native = require "celspan.native"
 
 local manual = {}
 
@@ -108,7 +108,7 @@ end
 
 --- The annotations of the function celspan.`name`, which are above its text in a module.
 local function from_module(name, module, own)
-  local text = core.source(module)
+  local text = native.source(module)
   local at, _, arguments = text:find(("\nfunction %s%%.%s(%%b())"):format(module, own))
   local above = text:sub(1, at):match ".*\n\n(.*)$"
   return ("%sfunction celspan.%s%s end\n"):format(above, name, arguments)
@@ -116,7 +116,7 @@ end
 
 --- The text of celspan.d.lua.
 function manual.annotations()
-  local celspan, nouns, by_line = require "celspan", core.nouns(), {}
+  local celspan, nouns, by_line = require "celspan", native.nouns(), {}
   for _, noun in pairs(nouns) do
     by_line[noun.table and noun.table:gsub("^celspan%.", "") or noun.name] = noun
   end
@@ -214,7 +214,7 @@ local function blocks_of_all()
   cached = manual.read(manual.annotations(), { celspan = "celspan" })
   cached.modules = {}
   for _, name in ipairs(manual.MODULES) do
-    cached.modules[name] = manual.read(core.source(name), { [name] = "celspan." .. name })
+    cached.modules[name] = manual.read(native.source(name), { [name] = "celspan." .. name })
   end
   return cached
 end
@@ -464,7 +464,7 @@ end
 function manual.facts()
   local all, facts = blocks_of_all(), { nouns = {}, functions = {}, types = {}, modules = {} }
   local is_noun = {}
-  for _, noun in pairs(core.nouns()) do
+  for _, noun in pairs(native.nouns()) do
     local fields = {}
     for i, field in ipairs(noun) do fields[i] = fact_of_field(field) end
     local class = noun.table or ("celspan.%s.fields"):format(noun.name)
@@ -508,7 +508,7 @@ function manual.page(name)
   add_meant(page, all, name)
   for _, other in ipairs(manual.MODULES) do add_meant(page, all.modules[other], name) end
   if #page > 0 then return table.concat(page, "\n") .. "\n" end
-  local nearest = core.nearest(name, names_of(all))
+  local nearest = native.nearest(name, names_of(all))
   return nil, ("there is no page about '%s'%s"):format(name,
     nearest and ("; did you mean '%s'?"):format(nearest) or "; celspan help lua lists the names")
 end

@@ -15,7 +15,7 @@
 -- One file, because most of it is one table of claims with their messages, which busted takes at
 -- once.
 local celspan = require "celspan"
-local core = require "celspan.core"
+local native = require "celspan.native"
 local fields = require "celspan.fields"
 local ordered = require "celspan.ordered"
 
@@ -204,7 +204,7 @@ end
 local function need_name(subject, names)
   if names[subject.name] then return end
   local list = ordered.names(names)
-  local hint = core.nearest(subject.name, list)
+  local hint = native.nearest(subject.name, list)
   refuse(("frame %d has no cel named %q%s"):format(subject.frame, subject.name,
     hint and ("; did you mean %q?"):format(hint)
       or #list > 0 and "; there are " .. table.concat(list, ", ")
@@ -235,7 +235,7 @@ end
 --- The difference of two images of the same size.
 local function difference_of(first, second, tolerance)
   local coding = { depth = 8, colour = "srgb", alpha = "straight" }
-  local count, largest, x, y, channel, picture = core.difference(first:bytes(coding),
+  local count, largest, x, y, channel, picture = native.difference(first:bytes(coding),
     second:bytes(coding), first.width, tolerance)
   return { count = count, largest = largest, x = x, y = y, channel = channel, picture = picture }
 end
@@ -485,9 +485,9 @@ local takes = { frame = "film, n", point = "film, n, x, y", cel = "film, n, name
 say:set("assertion.celspan", "%s")
 
 -- busted reports the line of the first function on the stack that is neither in C nor in luassert.
--- core.outside removes this function from the stack, so the reported line is in the spec.
+-- native.outside removes this function from the stack, so the reported line is in the spec.
 for word, read in pairs(subjects) do
-  luassert:register("modifier", word, core.outside(function(state, arguments)
+  luassert:register("modifier", word, native.outside(function(state, arguments)
     if not arguments then
       refuse(("write assert.%s(%s).claim(...): these are the arguments of %s"):format(word,
         takes[word], word))
@@ -505,7 +505,7 @@ local function set_message(arguments, message)
 end
 
 for word, claim in pairs(claims) do
-  luassert:register("assertion", word, core.outside(function(state, arguments)
+  luassert:register("assertion", word, native.outside(function(state, arguments)
     local subject = rawget(state, "celspan")
     if not subject or subject.word ~= about[word] then
       refuse(("%s applies to a %s: assert.%s(%s).%s(...)"):format(word, about[word], about[word],

@@ -4,7 +4,7 @@
 --      |   .----------.         from -1/2 to 1/2 across its greatest width. There lie its texture
 --      +--<------------>--- x   and its outline, by the profile. Then it is scaled to the length
 --          `----------'         and the width, and bent along the path.
-local core = require "celspan.core"
+local native = require "celspan.native"
 local celspan = require "celspan"
 local curves = require "celspan.curves"
 local fields = require "celspan.fields"
@@ -15,7 +15,7 @@ local brush = {}
 local SAMPLES = 48
 local CHISEL = 0.15 -- the thickness of the nib, as a share of the width
 
-local function refuse(text, ...) core.refuse("brush: " .. text:format(...)) end
+local function refuse(text, ...) native.refuse("brush: " .. text:format(...)) end
 
 --- The width at a place of the drawn part, as a share. line: { curve, width, from, length }, in
 --- units; length: of the drawn part.
@@ -58,7 +58,7 @@ local function profile_of(given, line)
   local found = profiles[given]
   if found then return function(t) return found(t, line) end end
   local names = { "chisel", "even", "ink", "round" }
-  local hint = type(given) == "string" and core.nearest(given, names)
+  local hint = type(given) == "string" and native.nearest(given, names)
   refuse("field 'profile' must be a function or \"chisel\", \"even\", \"ink\" or \"round\", got "
     .. "%s%s", type(given) == "string" and ("%q"):format(given) or fields.kind(given),
     hint and ("; did you mean %q?"):format(hint) or "")

@@ -6,7 +6,7 @@
 --           box = { 40, 60, 400, 180 }, progress = f.progress }
 --
 -- The box has the labels inside it. They are as many as have room, so none covers another.
-local core = require "celspan.core"
+local native = require "celspan.native"
 local count = require "celspan.count"
 local data = require "celspan.chart_data"
 local fields = require "celspan.fields"
@@ -15,7 +15,7 @@ local marks = require "celspan.chart_marks"
 local pies = require "celspan.chart_pie"
 local plots = require "celspan.chart_plot"
 
-local function refuse(text, ...) core.refuse("chart: " .. text:format(...)) end
+local function refuse(text, ...) native.refuse("chart: " .. text:format(...)) end
 
 --- Of one lightness, and apart in hue, also for most who see few colours.
 local COLOURS = { "#3b6fe0", "#f08c2e", "#1fa187", "#d6456f", "#8a63d2", "#e3b505", "#35a7c9",
@@ -37,7 +37,7 @@ local function check(given)
     if given[name] == nil then refuse("needs the field '%s'", name) end
   end
   if not most_rows[given.kind] then
-    local hint = core.nearest(given.kind, kinds)
+    local hint = native.nearest(given.kind, kinds)
     refuse('field \'kind\' must be "area", "bar", "line" or "pie", got %q%s', given.kind,
       hint and ("; did you mean %q?"):format(hint) or "")
   end
@@ -132,4 +132,4 @@ end
 
 ---@class celspan.chart
 ---@overload fun(settings: celspan.chart.settings): celspan.object
-return fields.publish("chart", setmetatable({}, { __call = core.entry(new) }))
+return fields.publish("chart", setmetatable({}, { __call = native.entry(new) }))

@@ -5,7 +5,7 @@
 --   values   of a series: a number or false for each row
 --
 -- Rows are tables, such as those of csv.read, or plain numbers.
-local core = require "celspan.core"
+local native = require "celspan.native"
 local count = require "celspan.count"
 local fields = require "celspan.fields"
 
@@ -13,7 +13,7 @@ local data = {}
 
 local MOST = 1e12 -- as everywhere in celspan
 
-local function refuse(text, ...) core.refuse("chart: " .. text:format(...)) end
+local function refuse(text, ...) native.refuse("chart: " .. text:format(...)) end
 
 --- Refuses a field that no row has. Rows that are no tables are refused by their number.
 local function check_field(rows, field)

@@ -6,7 +6,7 @@
 --       \         /
 --  Snow -`-.___.-'
 local celspan = require "celspan"
-local core = require "celspan.core"
+local native = require "celspan.native"
 local count = require "celspan.count"
 local ease = require "celspan.ease"
 local fields = require "celspan.fields"
@@ -23,7 +23,7 @@ local LINE, LEADING = 0.07, 1.5          -- its width, and from name to name, in
 local LEAST = 1e-9                       -- a slice that is a smaller share is not drawn
 local FAR = 2.2                          -- of the radius: chords of a third of a circle are outside
 
-local function refuse(text, ...) core.refuse("chart: " .. text:format(...)) end
+local function refuse(text, ...) native.refuse("chart: " .. text:format(...)) end
 
 --- The slices: { name =, k =, from =, to =, share = }, angles clockwise from the top.
 local function slices_of(chart)

@@ -8,7 +8,7 @@
 --     |   0 |_______________|
 --     |      2000 2010 2020
 local celspan = require "celspan"
-local core = require "celspan.core"
+local native = require "celspan.native"
 local data = require "celspan.chart_data"
 local fields = require "celspan.fields"
 local labels = require "celspan.labels"
@@ -196,7 +196,7 @@ local function place(chart, axis, naming, above)
   local plot = { x = box[1] + left, y = box[2] + top, w = box[3] - left - right,
                  h = box[4] - top - bottom, below = below }
   if plot.w <= 0 or plot.h <= 0 then
-    core.refuse(("chart: a box of %.4g x %.4g has no room beside its labels: make it larger, or "
+    native.refuse(("chart: a box of %.4g x %.4g has no room beside its labels: make it larger, or "
       .. "field 'size' smaller"):format(box[3], box[4]))
   end
   add_places(plot, chart, axis)

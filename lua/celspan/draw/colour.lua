@@ -10,12 +10,12 @@
 --
 -- Oklab: Björn Ottosson, "A perceptual color space for image processing", 2020, from linear sRGB.
 local celspan = require "celspan"
-local core = require "celspan.core"
+local native = require "celspan.native"
 local fields = require "celspan.fields"
 
 local colour = {}
 
-local function refuse(text, ...) core.refuse("colour: " .. text:format(...)) end
+local function refuse(text, ...) native.refuse("colour: " .. text:format(...)) end
 
 -- ---------------------------------------------------------------- Oklab
 

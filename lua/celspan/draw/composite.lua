@@ -5,7 +5,7 @@
 --   both     a over b    a          -          a           -
 --   b only   b           -          -          b           b
 local celspan = require "celspan"
-local core = require "celspan.core"
+local native = require "celspan.native"
 local fields = require "celspan.fields"
 
 local composite = {}
@@ -58,7 +58,7 @@ function composite.instead(name) return nodes[name] end
 local function refuse(operator)
   local advice = ways[operator or false] or nodes[operator or false]
   local got = type(operator) == "string" and ("%q"):format(operator) or fields.kind(operator)
-  core.refuse(("composite: the operator must be \"over\", \"in\", \"out\", \"atop\" or \"xor\", "
+  native.refuse(("composite: the operator must be \"over\", \"in\", \"out\", \"atop\" or \"xor\", "
     .. "got %s%s"):format(got, advice and "; write " .. advice or ""))
 end
 

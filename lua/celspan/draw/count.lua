@@ -5,7 +5,7 @@
 --   celspan.timecode(3600, 24)                                --> 00:02:30:00
 --
 -- Separators and sizes of groups are those of Unicode's locale data (CLDR).
-local core = require "celspan.core"
+local native = require "celspan.native"
 local fields = require "celspan.fields"
 local ordered = require "celspan.ordered"
 
@@ -29,7 +29,7 @@ local known = {
   lv = { WIDE, ",", 3, 2 },
 }
 
-local function refuse(text, ...) core.refuse("count: " .. text:format(...)) end
+local function refuse(text, ...) native.refuse("count: " .. text:format(...)) end
 
 --- The style of a language. "pt-BR" has the style of "pt", unless it has its own.
 local function style_of(language)

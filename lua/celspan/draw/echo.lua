@@ -5,14 +5,14 @@
 --   k = 5   4   3   2   1   0         0 is now, in front and whole; each one behind it is fainter.
 --       .   :   o   o   O   O
 local celspan = require "celspan"
-local core = require "celspan.core"
+local native = require "celspan.native"
 local fields = require "celspan.fields"
 
 local echo = {}
 
 local MOST = 1000
 
-local function refuse(text, ...) core.refuse("echo: " .. text:format(...)) end
+local function refuse(text, ...) native.refuse("echo: " .. text:format(...)) end
 
 --- An object with its earlier moments, fainter, behind it.
 ---@param draw fun(k: integer): celspan.object? The object k steps ago; nil: nothing

@@ -7,13 +7,13 @@
 --
 -- What has nothing to paint has no bounds: it takes no room, and no gap.
 local celspan = require "celspan"
-local core = require "celspan.core"
+local native = require "celspan.native"
 local curves = require "celspan.curves"
 local fields = require "celspan.fields"
 
 local layout = {}
 
-local function refuse(text, ...) core.refuse(text:format(...)) end
+local function refuse(text, ...) native.refuse(text:format(...)) end
 
 --- The share of the free room that lies before an object.
 local across = { left = 0, centre = 0.5, right = 1 }
@@ -26,7 +26,7 @@ local function share_of(noun, field, word, shares, default)
   local names = {}
   for name in pairs(shares) do names[#names + 1] = ("%q"):format(name) end
   table.sort(names)
-  local hint = type(word) == "string" and core.nearest(word, { "left", "centre", "right", "top",
+  local hint = type(word) == "string" and native.nearest(word, { "left", "centre", "right", "top",
                                                                "bottom" })
   refuse("%s: %s must be %s, got %s%s", noun, field, table.concat(names, ", "),
     type(word) == "string" and ("%q"):format(word) or fields.kind(word),

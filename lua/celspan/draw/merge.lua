@@ -1,11 +1,11 @@
 --- Shapes as one shape: celspan.merge.
 local celspan = require "celspan"
-local core = require "celspan.core"
+local native = require "celspan.native"
 local fields = require "celspan.fields"
 
 local merge = {}
 
-local function refuse(text, ...) core.refuse("merge: " .. text:format(...)) end
+local function refuse(text, ...) native.refuse("merge: " .. text:format(...)) end
 
 --- The texture of a node.
 local function texture_of(node) return node.paint and celspan.paint(node.paint) or node.texture end
@@ -50,7 +50,7 @@ local function read(objects, options)
   for i = 1, rawlen(objects) do
     fields.expect_kind(fields.is_object(objects[i]), objects[i],
       "merge: item %d must be an object", i)
-    nodes[i] = collect(core.anatomy(objects[i], true), {})
+    nodes[i] = collect(native.anatomy(objects[i], true), {})
   end
   return mode, nodes
 end

@@ -8,13 +8,13 @@
 -- What has no partner grows from its middle, or shrinks to it. The match is made once for two
 -- objects, and kept as long as they are.
 local celspan = require "celspan"
-local core = require "celspan.core"
+local native = require "celspan.native"
 local fields = require "celspan.fields"
 local outlines = require "celspan.outlines"
 
 local morph = {}
 
-local function refuse(text, ...) core.refuse("morph: " .. text:format(...)) end
+local function refuse(text, ...) native.refuse("morph: " .. text:format(...)) end
 
 local function between(x, y, u) return x + (y - x) * u end
 
@@ -43,7 +43,7 @@ end
 local function texture_of(node, box)
   if node.paint then return celspan.paint(node.paint) end
   local own = { node.object:bounds() }
-  return own[1] and box[1] and core.move_texture(node.texture, fitting(own, box)) or node.texture
+  return own[1] and box[1] and native.move_texture(node.texture, fitting(own, box)) or node.texture
 end
 
 --- make: a function of a texture.
@@ -66,7 +66,7 @@ end
 
 local function plan_outlines(p, q, steering)
   if (p.line == nil) ~= (q.line == nil) then -- one is a line, the other a shape: both become shapes
-    local one, other = core.anatomy(p.object, true), core.anatomy(q.object, true)
+    local one, other = native.anatomy(p.object, true), native.anatomy(q.object, true)
     one.name, other.name = p.name, q.name
     p, q = one, other
   end
@@ -160,7 +160,7 @@ function plan(p, q, steering)
   return function(u)
     local operands = {}
     for i, make in ipairs(plans) do operands[i] = make(u) end
-    return finish(core.rebuild((u < 0.5 and p or q).object, operands), p, q, u)
+    return finish(native.rebuild((u < 0.5 and p or q).object, operands), p, q, u)
   end
 end
 
@@ -236,7 +236,7 @@ local function plan_of(a, b, list)
   kept[a][b] = kept[a][b] or {}
   local plans = kept[a][b]
   if not plans[key] then
-    local p, q = core.anatomy(a), core.anatomy(b)
+    local p, q = native.anatomy(a), native.anatomy(b)
     check_names(p, q, steering.names)
     assign(p, steering)
     plans[key] = plan(p, q, steering)

@@ -1,6 +1,6 @@
 --- Path operators: celspan.trim, round_corners, zigzag, pucker, twist and offset. The core changes
 --- the contours (celspan/operators.h); here the arguments are checked.
-local core = require "celspan.core"
+local native = require "celspan.native"
 local fields = require "celspan.fields"
 
 local operators = {}
@@ -21,9 +21,9 @@ function operators.trim(object, from, to, options)
   fields.object("trim", object)
   check_number("trim: the second argument, from,", from)
   check_number("trim: the third argument, to,", to)
-  if options == nil then return core.trim(object, from, to, 0, false) end
+  if options == nil then return native.trim(object, from, to, 0, false) end
   fields.check("trim", options, trims)
-  return core.trim(object, from, to, options.offset or 0, options.together or false)
+  return native.trim(object, from, to, options.offset or 0, options.together or false)
 end
 
 --- Arcs in place of the corners between straight sides.
@@ -33,7 +33,7 @@ end
 function operators.round_corners(object, radius)
   fields.object("round_corners", object)
   check_number("round_corners: the radius", radius)
-  return core.round_corners(object, radius)
+  return native.round_corners(object, radius)
 end
 
 local zigzags = { size = "number", ridges = "number", smooth = "boolean" }
@@ -48,11 +48,11 @@ function operators.zigzag(object, options)
   fields.check("zigzag", options, zigzags)
   for _, name in ipairs { "size", "ridges" } do
     if options[name] == nil then
-      core.refuse(("zigzag: needs the field '%s', a number"):format(name))
+      native.refuse(("zigzag: needs the field '%s', a number"):format(name))
     end
   end
   local ridges = fields.whole("zigzag: field 'ridges'", options.ridges, 0, RIDGES_MOST)
-  return core.zigzag(object, options.size, ridges, options.smooth or false)
+  return native.zigzag(object, options.size, ridges, options.smooth or false)
 end
 
 --- Bloats (above 0) or puckers (below 0): joints move towards their middle, control points away.
@@ -62,7 +62,7 @@ end
 function operators.pucker(object, amount)
   fields.object("pucker", object)
   check_number("pucker: the amount", amount)
-  return core.pucker(object, amount)
+  return native.pucker(object, amount)
 end
 
 --- Points turn about a centre, the less the farther they are from it.
@@ -77,9 +77,9 @@ function operators.twist(object, degrees, options)
     degrees) -- a thousand turns
   fields.check("twist", options or {}, { centre = "table" })
   local centre = options and options.centre
-  if not centre then return core.twist(object, degrees) end
+  if not centre then return native.twist(object, degrees) end
   fields.numbers("twist", "centre[%d]", centre, 2, "{x, y}")
-  return core.twist(object, degrees, centre[1], centre[2])
+  return native.twist(object, degrees, centre[1], centre[2])
 end
 
 local joins = { round = true, miter = true, bevel = true }
@@ -97,11 +97,11 @@ function operators.offset(object, distance, options)
   fields.check("offset", options or {}, { join = "string", limit = "number" })
   local join, limit = options and options.join or "round", options and options.limit or LIMIT
   if not joins[join] then
-    core.refuse(("offset: field 'join' must be \"round\", \"miter\" or \"bevel\", got %q"):format(
+    native.refuse(("offset: field 'join' must be \"round\", \"miter\" or \"bevel\", got %q"):format(
       join))
   end
   fields.must(limit >= 1 and limit <= 1e6, "offset: field 'limit'", "from 1 to 1000000", limit)
-  return core.offset(object, distance, join, limit)
+  return native.offset(object, distance, join, limit)
 end
 
 return fields.seal("operators", operators)

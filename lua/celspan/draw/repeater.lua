@@ -5,7 +5,7 @@
 --                                                first step: scaling acts about the centre alone.
 local celspan = require "celspan"
 local affine = require "celspan.affine"
-local core = require "celspan.core"
+local native = require "celspan.native"
 local fields = require "celspan.fields"
 
 local repeater = {}
@@ -17,7 +17,7 @@ local known = { count = "number", offset = "number", translate = "table", rotate
                 scale = "any", centre = "table", opacity = "table", order = "string",
                 each = "function" }
 
-local function refuse(text, ...) core.refuse("repeater: " .. text:format(...)) end
+local function refuse(text, ...) native.refuse("repeater: " .. text:format(...)) end
 
 --- A list of two numbers, or its default.
 local function read_pair(options, name, first, second)

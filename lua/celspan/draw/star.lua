@@ -5,7 +5,7 @@
 --    o-----o   o-----o      of the point. With a roundness of 1 they are as long as a quarter of
 --      \    inner  /        the way along that circle to the next joint of the same circle.
 local celspan = require "celspan"
-local core = require "celspan.core"
+local native = require "celspan.native"
 local fields = require "celspan.fields"
 
 local star = {}
@@ -31,7 +31,7 @@ end
 local function read(options)
   fields.check("star", options, known)
   fields.numbers("star", "centre[%d]", options.centre or { 0, 0 }, 2, "{x, y}")
-  if options.outer == nil then core.refuse "star: needs the field 'outer', a radius" end
+  if options.outer == nil then native.refuse "star: needs the field 'outer', a radius" end
   local points = fields.whole("star: field 'points'", options.points or 5, 2, POINTS_MOST)
   local inner = check_radius("inner", options.inner)
   return { x = options.centre and options.centre[1] or 0,

@@ -5,7 +5,7 @@
 --
 -- Letters stay where they are in the whole text, so no word jumps to another line. x, y is where
 -- the next letter is set, on the baseline: for a cursor.
-local core = require "celspan.core"
+local native = require "celspan.native"
 local fields = require "celspan.fields"
 local layout = require "celspan.layout"
 
@@ -37,4 +37,4 @@ end
 
 ---@class celspan.typewriter
 ---@overload fun(text: celspan.text.fields, u: number, options?: { by?: "letter"|"word"|"line" }): celspan.object, number?, number?
-return fields.publish("typewriter", setmetatable({}, { __call = core.entry(typed) }))
+return fields.publish("typewriter", setmetatable({}, { __call = native.entry(typed) }))

@@ -10,13 +10,13 @@
 local celspan = require "celspan"
 local affine = require "celspan.affine"
 local chance = require "celspan.chance"
-local core = require "celspan.core"
+local native = require "celspan.native"
 local curves = require "celspan.curves"
 local fields = require "celspan.fields"
 
 local warp = {}
 
-local function refuse(text, ...) core.refuse("warp: " .. text:format(...)) end
+local function refuse(text, ...) native.refuse("warp: " .. text:format(...)) end
 
 local function read_point(subject, value)
   fields.numbers("warp", subject .. ": its value %d", value, 2, "{x, y}")
@@ -360,7 +360,7 @@ function warp.apply(object, options)
   end
   local box = { object:bounds() }
   if not box[1] then return object end
-  return core.warp(object, maps[kind](options[kind], options, box), options.within or 0,
+  return native.warp(object, maps[kind](options[kind], options, box), options.within or 0,
     options.pieces)
 end
 
@@ -372,7 +372,7 @@ local LEAST = 4  -- a multiple of the amount: shorter waves would fold
 local boiled = { amount = "number", every = "number", seed = "any", frame = "number",
                  grain = "number", within = "number", pieces = "number" }
 
-local function refuse_boil(text, ...) core.refuse("boil: " .. text:format(...)) end
+local function refuse_boil(text, ...) native.refuse("boil: " .. text:format(...)) end
 
 local function check_boil(options)
   fields.check("boil", options, boiled)
@@ -397,7 +397,7 @@ function warp.boil(object, options)
   if amount == 0 then return object end
   if not object:bounds() then return object end
   local seed = options.seed or 0
-  return core.boil(object, chance.seed(("%s across"):format(seed)),
+  return native.boil(object, chance.seed(("%s across"):format(seed)),
     chance.seed(("%s down"):format(seed)), options.frame // every, amount, grain,
     options.within or 0, options.pieces)
 end

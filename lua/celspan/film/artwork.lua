@@ -6,7 +6,7 @@
 --   a movie, x.####.png        its pictures, one a frame; the sound, what else goes with the
 --                              pictures, and of files the rate, are parameters
 local celspan = require "celspan"
-local core = require "celspan.core"
+local native = require "celspan.native"
 local fields = require "celspan.fields"
 local json = require "celspan.json"
 local layers = require "celspan.layers"
@@ -166,7 +166,7 @@ local function shown(clip, path, given)
 end
 
 local function movie(path)
-  if not core.is_movie((core.find(path))) then return nil end
+  if not native.is_movie((native.find(path))) then return nil end
   return shown(celspan.footage { file = path }, path, declare_given {})
 end
 

@@ -6,7 +6,7 @@
 --   new film        |----------------|              at its time `at`, at its speed
 local captions = require "celspan.captions"
 local celspan = require "celspan"
-local core = require "celspan.core"
+local native = require "celspan.native"
 local fields = require "celspan.fields"
 local subtitles = require "celspan.subtitles"
 
@@ -76,7 +76,7 @@ function carried.captions_of(pieces, own)
   if #list == 0 or type(own) ~= "table" and type(own) ~= "string" then return own end
   if type(own) == "string" then
     local read, message = captions.read(own)
-    own = read or core.refuse("cut: captions: " .. message)
+    own = read or native.refuse("cut: captions: " .. message)
   end
   return table.move(own, 1, #own, #list + 1, list)
 end
@@ -134,7 +134,7 @@ function carried.pieces_of(film, track, duration)
   local list, first, last = {}, track.keys[1].time, track.keys[#track.keys].time
   local turns = track.loop and last > first and math.ceil((duration - first) / (last - first)) or 1
   if turns * #track.keys > MOST_PIECES then
-    core.refuse(("cut: retime: the sound or the captions have more than %d pieces, which is the "
+    native.refuse(("cut: retime: the sound or the captions have more than %d pieces, which is the "
       .. "limit: give the film none, film:with{ sound = {}, captions = {} }"):format(MOST_PIECES))
   end
   for turn = 0, turns - 1 do

@@ -10,7 +10,7 @@
 --   shot 2                 |=======...          start 20 - n: n frames of a transition
 local carried = require "celspan.carried"
 local celspan = require "celspan"
-local core = require "celspan.core"
+local native = require "celspan.native"
 local ease = require "celspan.ease"
 local edges = require "celspan.edges"
 local fields = require "celspan.fields"
@@ -65,7 +65,7 @@ local function transition(noun, seconds, curve, parts)
   fields.expect(fields.is_finite(seconds) and seconds > 0, seconds,
     "cut: %s takes seconds, a number above 0", noun)
   local good, eased = pcall(ease, curve or "linear")
-  if not good then core.refuse(("cut: %s: %s"):format(noun, eased)) end
+  if not good then native.refuse(("cut: %s: %s"):format(noun, eased)) end
   return setmetatable({ seconds = seconds, noun = noun, ease = eased, parts = parts }, Transition)
 end
 
@@ -98,7 +98,7 @@ function cut.fade(seconds, colour, curve)
   local texture = colour == nil and "#000" or colour
   local good, message = pcall(celspan.rect, { 0, 0, 1, 1, texture = texture })
   if not good then
-    core.refuse("cut: fade: the colour: " .. tostring(message):gsub("^.-rect: ", ""))
+    native.refuse("cut: fade: the colour: " .. tostring(message):gsub("^.-rect: ", ""))
   end
   return transition("fade", seconds, curve, function(a, b, u, size, step)
     if not a then u = 0.5 + u / 2 elseif not b then u = u / 2 end
@@ -177,7 +177,7 @@ function cut.push(settings)
   local from = settings.from or "right"
   local side = SIDES[from]
   if not side then
-    core.refuse(('cut: push: field \'from\' must be "right", "left", "top" or "bottom", got "%s"')
+    native.refuse(('cut: push: field \'from\' must be "right", "left", "top" or "bottom", got "%s"')
       :format(from))
   end
   local function moved(shot, share, size)
@@ -210,7 +210,7 @@ local function join(between, a, b, u, step, size)
   local first, second = a and exposures_of(a) or nothing, b and exposures_of(b) or nothing
   local list, eased = {}, between.ease(u)
   if not fields.is_finite(eased) then
-    core.refuse(("cut: %s: its ease must return a finite number, but at %.6g it returned %s")
+    native.refuse(("cut: %s: its ease must return a finite number, but at %.6g it returned %s")
       :format(between.noun, u, fields.shown(eased)))
   end
   u = math.max(0, math.min(1, eased))
@@ -234,7 +234,7 @@ local part_fields = { film = "userdata", from = "number", to = "number", speed =
   name = "string" }
 
 local function complain(i, text, ...)
-  core.refuse(("cut: part %d: "):format(i) .. text:format(...))
+  native.refuse(("cut: part %d: "):format(i) .. text:format(...))
 end
 
 local function check_frame(i, part, name, film)
@@ -333,7 +333,7 @@ local function lay_out(parts)
       start = shot.start + shot.count
     end
   end
-  if not last then core.refuse "cut: needs at least one film" end
+  if not last then native.refuse "cut: needs at least one film" end
   if pending then
     local count = overlap(pending.place, pending.between, last, nil, last.film.fps)
     add_segment { from = start - count, a = last, between = pending.between, count = count }
@@ -375,7 +375,7 @@ local function lay_over(exposures, cels, f, size)
       celspan.cel { shot:with { size = size } }, table.unpack(cels) }, exposure[2] }
   end
   if #cels > 0 and math.abs(total - 1) > 1e-6 then
-    core.refuse(("cut: over: frame %d is exposed with a weight of %g in all; it must be 1 (shots "
+    native.refuse(("cut: over: frame %d is exposed with a weight of %g in all; it must be 1 (shots "
       .. "of different antialiasing are exposed each in a wipe, iris or push)"):format(f.number,
       total))
   end
@@ -420,7 +420,7 @@ local function check_keys(film, track)
   local last = film.first + film.frames
   for i, key in ipairs(track.keys) do
     if type(key.value) ~= "number" or key.value < film.first or key.value > last then
-      core.refuse(("cut: retime: key %d must be a frame of the film, %d to %d, got %s"):format(i,
+      native.refuse(("cut: retime: key %d must be a frame of the film, %d to %d, got %s"):format(i,
         film.first, last, fields.shown(key.value)))
     end
   end
@@ -440,7 +440,7 @@ function cut.retime(film, list, duration)
   local track = is_track and list or keys(list)
   check_keys(film, track)
   if duration == nil and track.loop then
-    core.refuse("cut: retime: keys with a loop need a duration, cut.retime(film, keys, 10)")
+    native.refuse("cut: retime: keys with a loop need a duration, cut.retime(film, keys, 10)")
   end
   duration = duration == nil and track.keys[#track.keys].time or duration
   fields.expect(fields.is_finite(duration) and duration > 0, duration,
@@ -478,4 +478,4 @@ end
 
 ---@class celspan.cut
 ---@overload fun(parts: celspan.cut.parts): celspan.film
-return fields.publish("cut", setmetatable(cut, { __call = core.entry(new) }))
+return fields.publish("cut", setmetatable(cut, { __call = native.entry(new) }))

@@ -3,7 +3,7 @@
 -- The noise is a sum of three octaves, n, whose deviation is DEVIATION. The mode linear-light adds
 -- 2 s - 1 to a code, so a source s = 1/2 + amount n / (2 DEVIATION) has the deviation of `amount`.
 local celspan = require "celspan"
-local core = require "celspan.core"
+local native = require "celspan.native"
 
 local grain = {}
 
@@ -18,7 +18,7 @@ local function seed_of(options, frame)
 end
 
 local function grey(code)
-  local light = core.light(code)
+  local light = native.light(code)
   return celspan.rgb(light, light, light)
 end
 
@@ -37,7 +37,7 @@ function grain.of_objects(options, frame, list)
   local x, y, w, h = art:bounds()
   if not x then return art end
   local sheet = celspan.rect { x - 1, y - 1, w + 2, h + 2, texture = grain.texture(options, frame) }
-  return celspan.group { art, core.blend_within(sheet, "linear-light"), isolate = true,
+  return celspan.group { art, native.blend_within(sheet, "linear-light"), isolate = true,
     space = "srgb" }
 end
 

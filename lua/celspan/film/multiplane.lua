@@ -17,7 +17,7 @@
 --
 -- over = {cel, ...}: in front of everything; the camera does not move them.
 local celspan = require "celspan"
-local core = require "celspan.core"
+local native = require "celspan.native"
 local fields = require "celspan.fields"
 local scenes = require "celspan.scenes"
 
@@ -62,13 +62,13 @@ local cel_metatable = getmetatable(celspan.cel {})
 
 local function check(scene)
   if not scene.film then
-    core.refuse("multiplane: field 'film' must be {width, height}, the size of the film, got nil")
+    native.refuse("multiplane: field 'film' must be {width, height}, the size of the film, got nil")
   end
   fields.numbers("multiplane", "film[%d]", scene.film, 2, "{width, height}")
   fields.must((scene.aperture or 0) >= 0, "multiplane: field 'aperture'", "0 or more",
     scene.aperture)
   if scene.focus and scene.focus_on then
-    core.refuse("multiplane: 'focus' is a distance from the camera and 'focus_on' a depth: give "
+    native.refuse("multiplane: 'focus' is a distance from the camera and 'focus_on' a depth: give "
       .. "one of them")
   end
   fields.must((scene.focal or 1) > 0, "multiplane: field 'focal'", "above 0", scene.focal)
@@ -76,13 +76,13 @@ local function check(scene)
     local plane = scene[i]
     local cel = type(plane) == "table" and plane[1] or nil
     if getmetatable(cel) ~= cel_metatable then
-      core.refuse(("multiplane: plane %d must be {cel, z = depth}, got %s"):format(i,
+      native.refuse(("multiplane: plane %d must be {cel, z = depth}, got %s"):format(i,
         type(plane) == "table" and ("{%s}"):format(fields.kind(cel)) or fields.kind(plane)))
     end
     fields.check("multiplane: plane " .. i, plane, known_plane)
     if fits(plane, scene) and (plane.z or 0) <= -(scene.focal or 1000) then
-      core.refuse(("multiplane: plane %d lies at or behind the camera at rest (z = %s, focal = %s);"
-        .. " it cannot fill the film there"):format(i, plane.z, scene.focal or 1000))
+      native.refuse(("multiplane: plane %d lies at or behind the camera at rest (z = %s,"
+        .. " focal = %s); it cannot fill the film there"):format(i, plane.z, scene.focal or 1000))
     end
   end
   for i = 1, #(scene.over or {}) do
@@ -117,4 +117,4 @@ end
 
 ---@class celspan.multiplane
 ---@overload fun(scene: table): celspan.rostrum
-return fields.publish("multiplane", setmetatable({}, { __call = core.entry(multiplane) }))
+return fields.publish("multiplane", setmetatable({}, { __call = native.entry(multiplane) }))

@@ -9,7 +9,7 @@
 -- host:
 -- `declared`, and `refused`, the sentence about a wrong setting.
 local celspan = require "celspan"
-local core = require "celspan.core"
+local native = require "celspan.native"
 local ease = require "celspan.ease"
 local fields = require "celspan.fields"
 local json = require "celspan.json"
@@ -287,11 +287,11 @@ end
 
 --- celspan.parameters.
 function parameters.declare(given)
-  local settings = core.settings()
+  local settings = native.settings()
   fields.takes("parameters:", "table", "a table of names and defaults", given)
-  if settings.declared then core.refuse("parameters: a script declares its parameters once") end
+  if settings.declared then native.refuse("parameters: a script declares its parameters once") end
   local good, declared = pcall(declare_all, given)
-  if not good then core.refuse(declared) end
+  if not good then native.refuse(declared) end
   settings.declared = declared
   local values = {}
   for _, one in ipairs(declared) do
@@ -313,7 +313,7 @@ end
 
 --- Why "NAME=VALUE", from a row of a table, cannot be set; "" if it can be set.
 function parameters.fault(setting)
-  local settings, name, value = core.settings(), setting:match "^(.-)=(.*)$"
+  local settings, name, value = native.settings(), setting:match "^(.-)=(.*)$"
   local good, message = pcall(set, settings, settings.declared or {}, {}, "", name,
     value, true)
   settings.refused = nil
@@ -350,7 +350,7 @@ end
 --- The parameters that the script of this state has declared, as JSON Schema.
 function parameters.schema(title)
   local properties = {}
-  for i, one in ipairs(core.settings().declared or {}) do
+  for i, one in ipairs(native.settings().declared or {}) do
     properties[i] = { one.name, schema_of(one) }
   end
   return json.encode({
@@ -428,7 +428,7 @@ end
 --- The same as lines, "name kind default".
 function parameters.lines()
   local lines = {}
-  for i, one in ipairs(core.settings().declared or {}) do
+  for i, one in ipairs(native.settings().declared or {}) do
     local allowed = kinds[one.kind].allowed
     lines[i] = ("parameter %s %s %s%s\n"):format(one.name, one.kind, in_line(one.text),
       allowed and " (" .. allowed(one) .. ")" or "")

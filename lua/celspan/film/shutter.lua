@@ -6,7 +6,7 @@
 -- function is called once for each sample with an f whose time, middle and progress are those of
 -- the middle of the sample's interval; number, index, f:on and f:random are those of the frame. The
 -- samples are exposed with equal weights that add up to 1.
-local core = require "celspan.core"
+local native = require "celspan.native"
 local fields = require "celspan.fields"
 
 local known = { angle = "number", samples = "number", frame = "function" }
@@ -22,7 +22,7 @@ local function moved(f, share)
   }
   return setmetatable(g, {
     __index = function(_, name) return f[name] end,
-    __newindex = function() core.refuse("frames are immutable") end,
+    __newindex = function() native.refuse("frames are immutable") end,
   })
 end
 
@@ -42,7 +42,7 @@ local function shutter(_, settings)
   local angle, samples, frame = settings.angle or 180, settings.samples or 8, settings.frame
   fields.must(angle >= 0 and angle <= 360, "shutter: field 'angle'", "0..360 degrees", angle)
   fields.whole("shutter: field 'samples'", samples, 1, 10000)
-  if not frame then core.refuse("shutter: field 'frame' must be a function, got nil") end
+  if not frame then native.refuse("shutter: field 'frame' must be a function, got nil") end
   return function(f)
     local exposures = {}
     for k = 1, samples do
@@ -54,4 +54,4 @@ end
 
 ---@class celspan.shutter
 ---@overload fun(settings: table): fun(f: celspan.frame): table[]
-return fields.publish("shutter", setmetatable({}, { __call = core.entry(shutter) }))
+return fields.publish("shutter", setmetatable({}, { __call = native.entry(shutter) }))

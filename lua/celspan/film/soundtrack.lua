@@ -5,7 +5,7 @@
 --
 -- A sound of a film that is a sound of another one is moved, and heard at another speed, with all
 -- that lies around it.
-local core = require "celspan.core"
+local native = require "celspan.native"
 
 ---@class celspan.soundtrack.sound
 ---@field path string
@@ -90,7 +90,7 @@ local function of_film(sound, depth)
     if inner.speed < SLOWEST or inner.speed > FASTEST then
       error(("film: sound %d: %s: it is heard at %.4g times its speed, in films that are sounds of "
         .. "films; 0.01 to 100 times is possible"):format(sound.number,
-        core.is_data(inner.path) and "data:..." or inner.path, inner.speed), 0)
+        native.is_data(inner.path) and "data:..." or inner.path, inner.speed), 0)
     end
     inner.left, inner.right = inner.left * left, inner.right * right
     if is_heard(inner.passages) then list[#list + 1] = inner end
@@ -137,7 +137,7 @@ function flatten(film, depth)
       :format(DEEPEST), 0)
   end
   local items, all = {}, {}
-  for i, sound in ipairs(core.sounds(film)) do
+  for i, sound in ipairs(native.sounds(film)) do
     sound.at = sound.at + film.sound_offset
     local list = sound.path and of_file(sound) or of_film(sound, depth)
     items[i] = { sound = sound, list = list }

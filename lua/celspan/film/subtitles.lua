@@ -10,7 +10,7 @@
 -- Nothing in a text is markup: WebVTT has entities for this. SubRip has nothing, and ffmpeg reads
 -- HTML, {\codes} and \n in it: an invisible character makes them plain text.
 local captions = require "celspan.captions"
-local core = require "celspan.core"
+local native = require "celspan.native"
 local fields = require "celspan.fields"
 local files = require "celspan.files"
 
@@ -105,7 +105,7 @@ end
 ---@param film celspan.film
 ---@return celspan.captions.caption[]
 function subtitles.list(film)
-  local list, path, tried = core.captions(film)
+  local list, path, tried = native.captions(film)
   if path then list = read(list, path, tried) end
   for i, one in ipairs(list or {}) do check(one, i) end
   return list or {}

@@ -7,7 +7,7 @@
 --   art.skipped                                       -- lines about what looks different
 local celspan = require "celspan"
 local check = require "celspan.lottie_check"
-local core = require "celspan.core"
+local native = require "celspan.native"
 local fields = require "celspan.fields"
 local layers = require "celspan.lottie_layers"
 local letters = require "celspan.lottie_letters"
@@ -140,7 +140,7 @@ local function root_of(found, options)
   root.assets = assets_of(root, document)
   root.pictures = pictures.reader(found, root.assets)
   root.sound_file = pictures.sounds(found, root.assets)
-  for name, file in pairs(options.fonts or {}) do root.font_files[name] = core.find(file) end
+  for name, file in pairs(options.fonts or {}) do root.font_files[name] = native.find(file) end
   return root
 end
 
@@ -180,12 +180,12 @@ end
 local function check_names(options)
   for name, file in next, options.fonts or {} do
     if type(name) ~= "string" or type(file) ~= "string" then
-      core.refuse "lottie: read: fonts are files by name, such as { default = \"sans.ttf\" }"
+      native.refuse "lottie: read: fonts are files by name, such as { default = \"sans.ttf\" }"
     end
   end
   for name in next, options.set or {} do
     if type(name) ~= "string" then
-      core.refuse "lottie: read: set is values by slot, such as { tint = \"#f80\" }"
+      native.refuse "lottie: read: set is values by slot, such as { tint = \"#f80\" }"
     end
   end
 end
@@ -222,7 +222,7 @@ end
 ---@return celspan.lottie.art art
 function lottie.load(path, options)
   local art, message = lottie.read(path, options)
-  return art or core.refuse("lottie: " .. message)
+  return art or native.refuse("lottie: " .. message)
 end
 
 return fields.publish("lottie", lottie, Art)

@@ -6,7 +6,7 @@
 -- operator of the same kind, on each of its parts.
 local celspan = require "celspan"
 local contours = require "celspan.lottie_contour"
-local core = require "celspan.core"
+local native = require "celspan.native"
 local forms = require "celspan.lottie_forms"
 local geometry = require "celspan.lottie_geometry"
 local property = require "celspan.lottie_property"
@@ -38,7 +38,7 @@ end
 local function through(operator)
   return function(lists, t)
     if not lists[1] then return {} end
-    return core.anatomy(operator(celspan.stroke { contours = lists, width = THIN }, t)).contours
+    return native.anatomy(operator(celspan.stroke { contours = lists, width = THIN }, t)).contours
   end
 end
 

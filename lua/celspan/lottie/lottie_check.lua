@@ -1,6 +1,6 @@
 --- Whether a document is a Lottie animation that can be drawn: its size, its times, and how much it
 --- holds when all of its compositions are unfolded.
-local core = require "celspan.core"
+local native = require "celspan.native"
 local values = require "celspan.lottie_values"
 
 local check = {}
@@ -80,7 +80,7 @@ function check.examine(document, assets)
   local good, result = pcall(examine, document, assets)
   if good then return result end
   if type(result) ~= "table" then error(result, 0) end
-  if result.is_excess then return core.excess(result.message) end
+  if result.is_excess then return native.excess(result.message) end
   return nil, result.message
 end
 

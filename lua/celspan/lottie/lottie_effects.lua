@@ -1,7 +1,7 @@
 --- Effects of layers that celspan has: tint, fill, levels, blur and drop shadow; and of the layer
 --- styles the drop shadow. Others are noted.
 local celspan = require "celspan"
-local core = require "celspan.core"
+local native = require "celspan.native"
 local fields = require "celspan.fields"
 local paint = require "celspan.lottie_paint"
 local property = require "celspan.lottie_property"
@@ -10,7 +10,7 @@ local values = require "celspan.lottie_values"
 local effects = {}
 
 local BLUR = 0.6 -- the radius of a Gaussian, which is two sigmas, for After Effects' amount of 1
-local LUMA = { core.luma() }
+local LUMA = { native.luma() }
 local FAR = 1e5 -- units: beyond every layer
 
 --- Reads the parameters of an effect by their places, from 0.

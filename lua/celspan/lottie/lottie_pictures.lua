@@ -1,6 +1,6 @@
 --- The pictures of an animation: in the file itself, in its archive, or in files beside it.
 local celspan = require "celspan"
-local core = require "celspan.core"
+local native = require "celspan.native"
 local fields = require "celspan.fields"
 local source = require "celspan.lottie_source"
 local values = require "celspan.lottie_values"
@@ -17,7 +17,7 @@ local TOO_MUCH = "the sounds inside the file are larger than 128 MiB, counted ag
 --- The object of an embedded picture: the SVG reader decodes it.
 local function embedded(href, w, h)
   if href:find '["<&]' then return nil, "its data are damaged" end
-  local drawing, message = core.parse_svg(frame:format(w, h, w, h, href), "the picture")
+  local drawing, message = native.parse_svg(frame:format(w, h, w, h, href), "the picture")
   if not drawing then return nil, message end
   local note = drawing:skipped()[1]
   if note then return nil, note.what end
@@ -28,7 +28,7 @@ end
 local function file_of(found, asset)
   local folder = values.text(asset.u, "")
   local name = (folder:find "^/" and folder:sub(2) or folder) .. asset.p
-  local path = core.within(found.folder, name)
+  local path = native.within(found.folder, name)
   if path then return path end
   return nil, ("there is no file '%s'"):format(values.name(name, ""))
 end
@@ -45,7 +45,7 @@ end
 local function open(found, asset)
   local w, h = math.max(1, values.number(asset.w, 1)), math.max(1, values.number(asset.h, 1))
   if type(asset.p) ~= "string" or asset.p == "" then return nil, "the picture has no name" end
-  if core.is_data(asset.p) then return embedded(asset.p, w, h) end
+  if native.is_data(asset.p) then return embedded(asset.p, w, h) end
   if not found.archive then return beside(found, asset, w, h) end
   local address, message = source.address(found, "picture", asset.p)
   if not address then return nil, message end
@@ -69,14 +69,14 @@ end
 
 --- The bytes of the sound of an asset inside the file.
 local function bytes_of(found, asset)
-  if core.is_data(asset.p) then return #asset.p end
+  if native.is_data(asset.p) then return #asset.p end
   if found.archive then return source.bytes(found, "sound", asset.p) end
   return 0
 end
 
 --- The path of the sound of an asset, or an address that contains it.
 local function sound_of(found, asset, most)
-  if core.is_data(asset.p) then return asset.p end
+  if native.is_data(asset.p) then return asset.p end
   if found.archive then return source.address(found, "sound", asset.p, most) end
   return file_of(found, asset)
 end

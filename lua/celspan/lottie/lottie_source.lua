@@ -3,7 +3,7 @@
 --   version 1: manifest.json, animations/ID.json, images/NAME, audio/NAME, themes/ID.json,
 --              states/ID.json
 --   version 2: manifest.json, a/ID.json, i/NAME, u/NAME, t/ID.json, s/ID.json
-local core = require "celspan.core"
+local native = require "celspan.native"
 local fields = require "celspan.fields"
 local files = require "celspan.files"
 local json = require "celspan.json"
@@ -25,14 +25,14 @@ end
 --- failure is that of the member.
 local function in_folders(ask, archive, kind, name, most)
   local newer, older = folders[kind][1] .. name, folders[kind][2] .. name
-  if not core.archive_size(archive, newer) and core.archive_size(archive, older) then
+  if not native.archive_size(archive, newer) and native.archive_size(archive, older) then
     return ask(archive, older, most)
   end
   return ask(archive, newer, most)
 end
 
 local function member(archive, kind, name)
-  return in_folders(core.archive, archive, kind, name, json.most_bytes)
+  return in_folders(native.archive, archive, kind, name, json.most_bytes)
 end
 
 --- The ids of a list of the manifest.
@@ -57,7 +57,7 @@ local function first_of(manifest)
 end
 
 local function open_archive(path, found_at)
-  local text, message = core.archive(found_at, "manifest.json", json.most_bytes)
+  local text, message = native.archive(found_at, "manifest.json", json.most_bytes)
   if not text then return nil, message end
   local manifest, problem = decode(text, path .. ": manifest.json")
   if not manifest then return nil, problem end
@@ -82,7 +82,7 @@ end
 function source.open(path)
   local text, message = files.read_found(path, json.most_bytes)
   if not text then return nil, message end
-  local found_at = core.find(path)
+  local found_at = native.find(path)
   if text:sub(1, 4) == "PK\3\4" then return open_archive(path, found_at) end
   if not text:find "%S" then return nil, path .. ": it is no Lottie animation: it is empty" end
   local document, problem = decode(text, path)
@@ -99,10 +99,10 @@ end
 ---@return string? address
 ---@return string? message
 function source.address(found, kind, name, most)
-  local bytes, message = in_folders(core.archive, found.archive, kind, name,
+  local bytes, message = in_folders(native.archive, found.archive, kind, name,
     math.min(most or json.most_bytes, json.most_bytes))
   if not bytes then return nil, message end
-  return core.data(bytes)
+  return native.data(bytes)
 end
 
 --- The bytes that a picture or sound of the archive says to have.
@@ -112,7 +112,7 @@ end
 ---@return integer? bytes
 ---@return string? message
 function source.bytes(found, kind, name)
-  return in_folders(core.archive_size, found.archive, kind, name)
+  return in_folders(native.archive_size, found.archive, kind, name)
 end
 
 --- The rules of a theme: a list of { id =, value = }.

@@ -3,7 +3,7 @@
 -- A bone in a pose has a frame, the rigid map of everything that follows it, and a scaling, of its
 -- own artwork before that. Children of a stretched bone move with its end and keep their shape.
 local affine = require "celspan.affine"
-local core = require "celspan.core"
+local native = require "celspan.native"
 local fields = require "celspan.fields"
 local reach = require "celspan.reach"
 
@@ -11,7 +11,7 @@ local bones = {}
 
 local rad, deg = math.rad, math.deg
 
-function bones.refuse(text, ...) core.refuse("puppet: " .. text:format(...)) end
+function bones.refuse(text, ...) native.refuse("puppet: " .. text:format(...)) end
 local refuse = bones.refuse
 
 --- The end of a message about a wrong name: the nearest of the names, or all of them.
@@ -132,7 +132,7 @@ local function check_parts(rig)
     if not rig.bones[name] then names[#names + 1] = name end
   end
   for _, bone in ipairs(rig.list) do
-    local hint = bone.is_bare and core.nearest(bone.name, names)
+    local hint = bone.is_bare and native.nearest(bone.name, names)
     if hint then
       refuse("bone '%s': the artwork has no part of this name; did you mean '%s'? Else give it "
         .. "parts = {}", bone.name, hint)

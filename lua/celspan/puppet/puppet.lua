@@ -16,7 +16,7 @@
 local celspan = require "celspan"
 local affine = require "celspan.affine"
 local bones = require "celspan.bones"
-local core = require "celspan.core"
+local native = require "celspan.native"
 local fields = require "celspan.fields"
 local poses = require "celspan.poses"
 local puppet_sheet = require "celspan.puppet_sheet"
@@ -407,13 +407,13 @@ end
 --- Reports warnings for `celspan check`.
 local function warn(rig, pose, frames, at, choices)
   for _, joint in ipairs(missed_in(rig, pose, frames, at)) do
-    core.warn(("puppet: the joint '%s' does not reach its target: its bones are too short for it, "
-      .. "or have limits; move the whole with `at`, or give the target loose = true")
+    native.warn(("puppet: the joint '%s' does not reach its target: its bones are too short for it,"
+      .. " or have limits; move the whole with `at`, or give the target loose = true")
       :format(joint))
   end
   for _, gap in ipairs(gaps_in(rig, frames, at, choices)) do
-    core.warn(("puppet: '%s' and '%s' come apart at the joint '%s': let the drawings of both cover "
-      .. "it, or give the bone apart = true"):format(gap.bone, gap.parent, gap.joint))
+    native.warn(("puppet: '%s' and '%s' come apart at the joint '%s': let the drawings of both"
+      .. " cover it, or give the bone apart = true"):format(gap.bone, gap.parent, gap.joint))
   end
 end
 
@@ -425,7 +425,7 @@ end
 function methods:pose(pose)
   fields.self("puppet", Rig, self, "pose")
   local frames, at, choices = place(self, pose)
-  if core.warns() then warn(self, pose, frames, at, choices) end
+  if native.warns() then warn(self, pose, frames, at, choices) end
   local object = draw(self, pose, frames, choices)
   if at[1] == 0 and at[2] == 0 then return object end
   return object:translate(at[1], at[2])
@@ -472,5 +472,5 @@ end
 
 ---@class celspan.puppet
 ---@overload fun(settings: table): celspan.puppet.rig
-return fields.publish("puppet", setmetatable({ steps = steps }, { __call = core.entry(new) }),
+return fields.publish("puppet", setmetatable({ steps = steps }, { __call = native.entry(new) }),
   methods)

@@ -4,10 +4,10 @@
 --            .--.                  0 .. share               stays where it is
 --     ______/    \______           share .. 1               swings to its next place
 --      on the ground
-local core = require "celspan.core"
+local native = require "celspan.native"
 local fields = require "celspan.fields"
 
-local function refuse(text, ...) core.refuse("puppet: " .. text:format(...)) end
+local function refuse(text, ...) native.refuse("puppet: " .. text:format(...)) end
 
 ---@class celspan.puppet.steps
 local Steps = fields.class("celspan.puppet.steps", "steps")

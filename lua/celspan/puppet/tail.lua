@@ -8,7 +8,7 @@
 --
 -- INVARIANT: the points are a function of the time alone, and every link keeps its length. All
 -- links use the same samples of the joint, because placing a puppet is what costs time.
-local core = require "celspan.core"
+local native = require "celspan.native"
 local fields = require "celspan.fields"
 local springs = require "celspan.springs"
 
@@ -22,7 +22,7 @@ local Tail = { __name = "celspan.puppet.tail" }
 local methods = {}
 Tail.__index = fields.reads("a tail", methods)
 
-local function refuse(text, ...) core.refuse("puppet: tail: " .. text:format(...)) end
+local function refuse(text, ...) native.refuse("puppet: tail: " .. text:format(...)) end
 
 local known = { joint = "string", pose = "function", links = "number", length = "number",
                 angle = "any", stiffness = "number", damping = "number", wind = "any" }

@@ -7,7 +7,7 @@ for ending in ("png jpg jpeg tif tiff exr tga dpx cin webp bmp gif jp2 hdr"):gma
   endings[ending] = true
 end
 
---- The name of a file that is a picture, without its ending; nil: it is none.
+--- The name of a file that is a picture, without its ending; nil: it is another file.
 function folder_names.picture(name)
   local base, ending = name:match "^(.*)%.(%w+)$"
   return base and endings[ending:lower()] and base or nil

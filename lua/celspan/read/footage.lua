@@ -6,7 +6,7 @@
 --
 --   clip:at(seconds)   the last picture whose time is at most that, as far as the clock is exact
 local celspan = require "celspan"
-local core = require "celspan.core"
+local native = require "celspan.native"
 local fields = require "celspan.fields"
 
 local footage = {}
@@ -17,10 +17,10 @@ local RANGES = 8 -- of missing files in a message
 local HIGH = { smpte2084 = "PQ", ["arib-std-b67"] = "HLG" } -- curves of high dynamic range
 local KEPT = 8 -- numbered files that stay open though no frame shows them
 
-local function refuse(text, ...) core.refuse("footage: " .. text:format(...)) end
+local function refuse(text, ...) native.refuse("footage: " .. text:format(...)) end
 
 --- Refuses because files are not there, which is no fault of the script.
-local function miss(text, ...) core.miss("footage", text:format(...)) end
+local function miss(text, ...) native.miss("footage", text:format(...)) end
 
 --- The methods of a clip, celspan.footage; celspan.annotations lists its fields.
 local Clip = {}
@@ -59,9 +59,9 @@ end
 
 --- The numbers of the files of a pattern.
 local function find_numbers(pattern)
-  local found_at, tried = core.find(pattern)
-  local numbers, message = core.frames(found_at)
-  if tried and (not numbers or #numbers == 0) then numbers = core.frames(tried) or numbers end
+  local found_at, tried = native.find(pattern)
+  local numbers, message = native.frames(found_at)
+  if tried and (not numbers or #numbers == 0) then numbers = native.frames(tried) or numbers end
   if not numbers then refuse("%s", message) end
   if #numbers == 0 then
     miss("%s: there are no such files%s", pattern,
@@ -77,7 +77,7 @@ local function open_textures(given, numbers)
   local function open(i)
     local found = celspan.picture { file = given.file, frame = numbers[i], colour = given.colour,
                                     layer = given.layer }
-    return found, core.picture_size(found)
+    return found, native.picture_size(found)
   end
   local first, width, height = open(1)
   return function(i)
@@ -138,11 +138,11 @@ local function check_transfer(given, facts)
   end
 end
 
---- What there is to know about a movie: the facts of core.movie with size, fps, tick (seconds),
+--- What there is to know about a movie: the facts of native.movie with size, fps, tick (seconds),
 --- finish (seconds at which the last picture ends), high (the name of a high dynamic range) and
 --- time(i); or nil and a message.
 function footage.describe(path, tried)
-  local facts, message = core.movie(path, tried)
+  local facts, message = native.movie(path, tried)
   if not facts then return nil, message end
   local tick = facts.tick[1] / facts.tick[2]
   local function ticks(i) return (("=i8"):unpack(facts.times, i * 8 - 7)) end
@@ -211,7 +211,7 @@ end
 
 --- A movie may have a name such as take#3.mp4, too.
 local function open_source(given)
-  local facts, message = footage.describe(core.find(given.file))
+  local facts, message = footage.describe(native.find(given.file))
   if facts then return open_movie(given, facts) end
   local is_numbered = given.file:find "#" or given.file:find "%%0?%d*d"
   if is_numbered and is_absent(message) then return open_files(given) end

@@ -8,7 +8,7 @@
 -- A tree is a list of layers and groups, rearmost first. Pixels are read when they are first
 -- visible. `skipped` lists everything that looks different in the program that made the painting.
 local celspan = require "celspan"
-local core = require "celspan.core"
+local native = require "celspan.native"
 local dissolve = require "celspan.dissolve"
 local fields = require "celspan.fields"
 local files = require "celspan.files"
@@ -68,7 +68,7 @@ local function whole(entry, clipped)
   if #clipped > 0 then
     local list = { object }
     for i, other in ipairs(clipped) do
-      list[i + 1] = core.blend_within(faded(other, other.object, other.opacity), mode_of(other))
+      list[i + 1] = native.blend_within(faded(other, other.object, other.opacity), mode_of(other))
     end
     list.isolate, list.space = true, sources[entry].space
     object = celspan.group(list)
@@ -78,7 +78,7 @@ end
 
 local function painted(entry, clipped)
   local object, mode = faded(entry, whole(entry, clipped), entry.opacity), mode_of(entry)
-  if sources[entry].within then return core.blend_within(object, mode) end
+  if sources[entry].within then return native.blend_within(object, mode) end
   return mode == "normal" and object or object:blend(mode)
 end
 
@@ -201,7 +201,7 @@ local function mask_of(layer, painting)
 end
 
 local function from_painting(path, options)
-  local painting, message = core.painting(path)
+  local painting, message = native.painting(path)
   if not painting then return nil, message end
   local flat, children, list = painting.layers, {}, {}
   for i, layer in ipairs(flat) do
@@ -240,7 +240,7 @@ local function from_folder(path, names, options)
     local base, file = folder_names.picture(name), path .. "/" .. name
     if not base then
       skipped[#skipped + 1] = { layer = name, what = "not a picture: it is left out" }
-    elseif not core.within(path, name) then
+    elseif not native.within(path, name) then
       return nil, ("%s: %s lies outside the folder"):format(path, name)
     else
       local entry, message = caught(function()
@@ -275,7 +275,7 @@ end
 -- ---------------------------------------------------------------- the module
 
 local function read_any(path, options)
-  local names, message = core.folder(path)
+  local names, message = native.folder(path)
   if names then
     local document = sheet_oca.document(names)
     if document then return from_oca(path, document, options) end
@@ -309,7 +309,7 @@ end
 ---@return celspan.layers.tree tree
 function layers.load(path, options)
   local tree, message = layers.read(path, options)
-  return tree or core.refuse("layers: " .. message)
+  return tree or native.refuse("layers: " .. message)
 end
 
 -- ---------------------------------------------------------------- finding
@@ -353,8 +353,8 @@ function methods:get(path)
   local entry = self:find(path)
   if entry then return entry end
   local paths = add_paths(self, "", {})
-  local hint = core.nearest(path, paths)
-  core.refuse(("layers: there is no layer %q%s"):format(path,
+  local hint = native.nearest(path, paths)
+  native.refuse(("layers: there is no layer %q%s"):format(path,
     hint and ("; did you mean %q?"):format(hint) or #paths > 0 and "; there are "
       .. table.concat(paths, ", ", 1, math.min(12, #paths)) or ""))
 end
@@ -474,7 +474,7 @@ local function choose(tree, only)
   for i, path in ipairs(only) do
     local entry = type(path) == "string" and find(tree, path) or nil
     if not entry then
-      core.refuse(("layers: only[%d] must be the path of a layer, got %s"):format(i,
+      native.refuse(("layers: only[%d] must be the path of a layer, got %s"):format(i,
         type(path) == "string" and ("%q"):format(path) or fields.kind(path)))
     end
     chosen[entry] = true

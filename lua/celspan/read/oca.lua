@@ -8,7 +8,7 @@
 -- layer with several drawings becomes a group of them, of which the first is visible; none is if
 -- the first frame is empty.
 local celspan = require "celspan"
-local core = require "celspan.core"
+local native = require "celspan.native"
 local fields = require "celspan.fields"
 local files = require "celspan.files"
 local json = require "celspan.json"
@@ -43,7 +43,7 @@ local function file_of(state, what, name)
   if is_outside or path:find "%z" then
     fail("%s: fileName is %q; it must lie in the folder", what, name)
   end
-  local found = core.within(state.folder, path)
+  local found = native.within(state.folder, path)
   if not found then
     fail("%s: fileName is %q, which is not in the folder", what, name)
   end
@@ -201,8 +201,8 @@ end
 ---@return string? message
 function oca.read(folder, document)
   if type(folder) ~= "string" or type(document) ~= "string" then
-    core.refuse(("oca: read takes a folder and the name of a document in it, got %s and %s"):format(
-      fields.kind(folder), fields.kind(document)))
+    native.refuse(("oca: read takes a folder and the name of a document in it, got %s and %s")
+      :format(fields.kind(folder), fields.kind(document)))
   end
   local path = folder .. "/" .. document
   local text, message = files.read(path, json.most_bytes)

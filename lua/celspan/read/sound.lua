@@ -7,7 +7,7 @@
 --   local beats, tempo = voice:beats()        -- seconds, and beats per minute
 --
 -- Loudness is that of EBU R 128, momentary: of the last 0.4 seconds.
-local core = require "celspan.core"
+local native = require "celspan.native"
 local fields = require "celspan.fields"
 local spectrum = require "celspan.spectrum"
 
@@ -39,7 +39,7 @@ local read_field = fields.reads("a sound", Sound)
 local metatable = {
   __name = "celspan.sound",
   __index = read_field,
-  __newindex = function() core.refuse("sounds are immutable") end,
+  __newindex = function() native.refuse("sounds are immutable") end,
 }
 
 local function check(value, method)
@@ -121,8 +121,8 @@ end
 --- not there any more.
 local function levels(self)
   if not levels_of[self] then
-    local found, message = core.spectrum(table.unpack(paths_of[self]))
-    levels_of[self] = found or core.refuse(message)
+    local found, message = native.spectrum(table.unpack(paths_of[self]))
+    levels_of[self] = found or native.refuse(message)
   end
   return levels_of[self]
 end
@@ -150,7 +150,7 @@ function Sound:beats()
   check(self, "beats")
   local beats, tempo = spectrum.beats(levels(self))
   if beats then return beats, tempo end
-  core.refuse(("sound: the beats of at most %d hours are found, and this one has %.1f")
+  native.refuse(("sound: the beats of at most %d hours are found, and this one has %.1f")
     :format(spectrum.LONGEST, self.seconds / 3600))
 end
 
@@ -160,8 +160,8 @@ end
 ---@return string? message
 function sound.read(file)
   fields.takes("sound: read", "string", "a file name", file)
-  local paths = { core.is_data(file) and file or core.find(file) }
-  local seconds, sums = core.hear(table.unpack(paths))
+  local paths = { native.is_data(file) and file or native.find(file) }
+  local seconds, sums = native.hear(table.unpack(paths))
   if not seconds then return nil, sums end
   local value = setmetatable({ seconds = seconds }, metatable)
   sums_of[value], paths_of[value] = sums, paths

@@ -12,7 +12,7 @@
 -- A file is read once and kept from frame to frame until it changes, so that frame functions may
 -- read it.
 local celspan = require "celspan"
-local core = require "celspan.core"
+local native = require "celspan.native"
 local fields = require "celspan.fields"
 local files = require "celspan.files"
 local ordered = require "celspan.ordered"
@@ -33,8 +33,8 @@ local svg = {}
 ---@field seconds? number How long it moves: up to the end of the last animation that ends, or the longest period where all repeat for ever
 local Art = fields.class("celspan.svg", "a drawing", { seconds = true, __move = true })
 
---- What moves a drawing that is being read to a time (mover.h); nil: returns how long it moves. What
---- its documents say is kept: its own, and those of drawings that are images of it.
+--- What moves a drawing that is being read to a time (mover.h); nil: returns how long it moves.
+--- What its documents say is kept: its own, and those of drawings that are images of it.
 local function clock()
   local plans = {}
   return function(mover, seconds, key)
@@ -79,13 +79,13 @@ end
 function Art:at(seconds)
   fields.check_at("svg", Art, self, seconds, "a time")
   if seconds < 0 or seconds > 1e12 then
-    core.refuse(("svg: at takes seconds from 0 to 1e12, got %s"):format(seconds))
+    native.refuse(("svg: at takes seconds from 0 to 1e12, got %s"):format(seconds))
   end
   if not self.__move then
-    core.refuse "svg: a drawing with changes has no times; take `at` of the drawing that was read"
+    native.refuse "svg: a drawing with changes has no times; take `at` of the drawing that was read"
   end
   local drawing, message = self.__drawing:at(seconds, self.__move)
-  return drawing and drawing:object() or core.refuse("svg: " .. message)
+  return drawing and drawing:object() or native.refuse("svg: " .. message)
 end
 
 --- The drawing with parts replaced, inner parts first. Clips, opacity and order of their ancestors
@@ -104,7 +104,7 @@ function Art:with(changes)
     local is_known = type(name) == "string"
       and (rawget(self.parts, name) ~= nil or numbers and numbers[name])
     if not is_known then
-      core.refuse(("svg: the drawing has no part '%s'%s"):format(fields.key(name),
+      native.refuse(("svg: the drawing has no part '%s'%s"):format(fields.key(name),
         fields.hint(name, names) or ""))
     end
     fields.expect_kind(type(change) == "function", change,
@@ -201,10 +201,10 @@ local function list_fonts(options)
   local list = {}
   for family, file in next, options.fonts or {} do
     if type(family) ~= "string" or type(file) ~= "string" then
-      core.refuse(("svg: fonts is a table of files by family, such as { Arial = \"arial.ttf\" }, "
+      native.refuse(("svg: fonts is a table of files by family, such as { Arial = \"arial.ttf\" }, "
         .. "got %s = %s"):format(fields.key(family), fields.kind(file)))
     end
-    list[#list + 1] = { family, core.find(file) }
+    list[#list + 1] = { family, native.find(file) }
   end
   table.sort(list, function(a, b) return a[1] < b[1] end)
   return list
@@ -220,7 +220,7 @@ function svg.read(path, options)
   fields.check("svg: read", options, { fonts = "table", space = "any" })
   fields.space("svg", options.space)
   local move = clock()
-  local drawing, message = files.found(path, core.read_svg, list_fonts(options),
+  local drawing, message = files.found(path, native.read_svg, list_fonts(options),
     options.space or "srgb", move)
   if drawing then return wrap(drawing, move) end
   return nil, message
@@ -232,7 +232,7 @@ end
 ---@return celspan.svg.art art
 function svg.load(path, options)
   local art, message = svg.read(path, options)
-  return art or core.refuse("svg: " .. message)
+  return art or native.refuse("svg: " .. message)
 end
 
 return fields.publish("svg", svg, Art)

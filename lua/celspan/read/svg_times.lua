@@ -19,8 +19,8 @@
 --   offset = seconds, owner = the number of the animation that waits
 --
 -- A run adds lists of its own: the interval that runs or comes next from `from` to `till`, the last
--- one that has begun from `begun` to `ended`, is_active, ... It goes on from one time to a later
--- one, so that a film does not begin again at each frame.
+-- one that has begun from `begun` to `ended`, is_active, ... It continues from one time to a
+-- later one, so that a film does not begin again at each frame.
 --
 -- Source: SMIL 3.0, 5.4, as far as no event of a user and no script takes part.
 local ordered = require "celspan.ordered"
@@ -233,7 +233,7 @@ end
 
 -- ---------------------------------------------------------------- the clock
 
---- Each list of a run, and what is in it at first.
+--- Each list of a run, and its first value.
 local columns = { time = huge, place = false, is_active = false, is_queued = false, from = huge,
                   till = huge, begun = false, ended = huge, after = -huge, was_empty = false,
                   period = 0, changes = 0, waves = 0, follower = false }
@@ -262,7 +262,7 @@ local function start(given, most, tries)
   return run
 end
 
---- Lets time go on; false: that takes too many steps.
+--- Lets time pass; false: that takes too many steps.
 local function go_on(run, seconds)
   settle(run)
   while run.heap[1] and run.time[run.heap[1]] <= seconds and not is_spent(run) do
@@ -275,7 +275,7 @@ local function go_on(run, seconds)
   return not is_spent(run)
 end
 
---- The run of timings at a time. last: one that it may go on from; nil: there is none. False,
+--- The run of timings at a time. last: a run of an earlier time; nil: there is none. False,
 --- message: they begin and end too often.
 function times.run(given, seconds, last)
   local run = last and last.at <= seconds and last or start(given, STEPS, 1)

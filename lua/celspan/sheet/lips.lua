@@ -7,7 +7,7 @@
 -- shape stays for at least `hold` frames, so that mouths do not flicker. Closed mouths (A, MBP, X,
 -- rest) are never dropped: viewers notice when they are missing. After the last cue the mouth is at
 -- rest: X in Rhubarb's files, where a last X only marks the end, and rest in the others.
-local core = require "celspan.core"
+local native = require "celspan.native"
 local cues = require "celspan.cues"
 local fields = require "celspan.fields"
 local files = require "celspan.files"
@@ -38,8 +38,8 @@ local function check_ranges(options)
   fields.must(hold >= 1 and hold == math.floor(hold), "lips: field 'hold'",
     "a whole number of frames, 1 or more", hold)
   if math.abs((options.start or 0) * fps) > SHIFT_MOST then
-    core.refuse(("lips: field 'start' must be within %d frames, got %s seconds"):format(SHIFT_MOST,
-      fields.shown(options.start)))
+    native.refuse(("lips: field 'start' must be within %d frames, got %s seconds"):format(
+      SHIFT_MOST, fields.shown(options.start)))
   end
 end
 
@@ -89,7 +89,9 @@ end
 ---@return celspan.lips.track? track
 ---@return string? message
 function lips.read(path, options)
-  if type(path) ~= "string" then core.refuse("lips: read takes a file name, got " .. type(path)) end
+  if type(path) ~= "string" then
+    native.refuse("lips: read takes a file name, got " .. type(path))
+  end
   options = options or {}
   fields.check("lips", options, known)
   check_ranges(options)

@@ -7,7 +7,7 @@
 -- Frames count from 1. A drawing holds until the next one. Layers are rearmost first.
 local celspan = require "celspan"
 local columns = require "celspan.columns"
-local core = require "celspan.core"
+local native = require "celspan.native"
 local fields = require "celspan.fields"
 local files = require "celspan.files"
 local sheet_csv = require "celspan.sheet_csv"
@@ -197,7 +197,7 @@ end
 function sheet.new(given)
   fields.check("sheet", given, known_fields)
   local made, message = fields.caught(make, given)
-  return made or core.refuse("sheet: " .. message)
+  return made or native.refuse("sheet: " .. message)
 end
 
 -- ---------------------------------------------------------------- reading
@@ -215,7 +215,7 @@ local function decode(text, path, which)
 end
 
 local function read_whole(path)
-  local names = core.folder(path)
+  local names = native.folder(path)
   if names then
     local document = sheet_oca.document(names)
     if not document then return nil, path .. ": the folder contains no OCA document" end
@@ -248,14 +248,14 @@ local function place_of(self, layer, method)
     if name == layer then return i end
   end
   local hint = type(layer) == "string"
-    and core.nearest(layer, { table.unpack(self.layers, 1, 100) })
-  core.refuse(("sheet: %s: there is no layer %s%s"):format(method,
+    and native.nearest(layer, { table.unpack(self.layers, 1, 100) })
+  native.refuse(("sheet: %s: there is no layer %s%s"):format(method,
     type(layer) == "string" and ("%q"):format(layer) or fields.shown(layer),
     hint and ("; did you mean %q?"):format(hint) or ""))
 end
 
 local function column_of(self, layer, method)
-  local store = stores[self] or core.refuse("sheet: " .. method
+  local store = stores[self] or native.refuse("sheet: " .. method
     .. ": call it as a method of a sheet")
   return store[place_of(self, layer, method)]
 end
@@ -331,7 +331,7 @@ local function safe_name(name)
   local path = name:gsub("\\", "/")
   if path:find "^/" or path:find "^%a:" or path:find "%c"
     or ("/" .. path .. "/"):find("/../", 1, true) then
-    core.refuse(("sheet: drawing: %q cannot be part of a file's name"):format(name))
+    native.refuse(("sheet: drawing: %q cannot be part of a file's name"):format(name))
   end
   return path
 end
@@ -342,12 +342,12 @@ local function by_pattern(name, layer, pattern)
   if star then return before .. safe_name(name) .. after end
   local first = pattern:find "#+[^#]*$"
   if not first then
-    core.refuse(("sheet: drawing: the pattern %q has neither # nor *"):format(pattern))
+    native.refuse(("sheet: drawing: the pattern %q has neither # nor *"):format(pattern))
   end
   local last = pattern:find("[^#]", first) or #pattern + 1
   local start, digits, letter = name:match "^(.-)(%d+)(%a?)$"
   if not digits or start ~= "" and start:gsub("[ _.-]$", "") ~= layer then
-    core.refuse(("sheet: drawing: %q has no number, for %q; a * takes the name unchanged")
+    native.refuse(("sheet: drawing: %q has no number, for %q; a * takes the name unchanged")
       :format(name, pattern))
   end
   digits = digits:gsub("^0+(%d)", "%1")
@@ -356,7 +356,7 @@ local function by_pattern(name, layer, pattern)
 end
 
 local function missing(name, layer, frame, where)
-  core.refuse(("sheet: drawing: layer %q shows %q at frame %d, which is missing from %s")
+  native.refuse(("sheet: drawing: layer %q shows %q at frame %d, which is missing from %s")
     :format(layer, name, frame, where))
 end
 
@@ -454,7 +454,7 @@ function sheet.of(film, options)
   local made, message = fields.caught(finish, { name = film.title, fps = film.fps,
     frames = listed and #listed or film.frames, layers = sheet_film.columns(film, listed),
     notes = {}, width = film.size[1], height = film.size[2] })
-  return made or core.refuse("sheet: " .. message)
+  return made or native.refuse("sheet: " .. message)
 end
 
 return fields.publish("sheet", sheet, methods)

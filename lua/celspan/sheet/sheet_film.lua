@@ -1,6 +1,6 @@
 --- The columns of a sheet from the frames of a film.
 local columns = require "celspan.columns"
-local core = require "celspan.core"
+local native = require "celspan.native"
 
 local sheet_film = {}
 
@@ -75,7 +75,8 @@ end
 function sheet_film.columns(film, listed)
   local state = { layers = {}, by_key = {}, taken = {} }
   for index = 1, listed and #listed or film.frames do
-    add_frame(state, core.parts(film:at(listed and listed[index] or film.first + index - 1)), index)
+    local number = listed and listed[index] or film.first + index - 1
+    add_frame(state, native.parts(film:at(number)), index)
   end
   return state.layers
 end

@@ -14,7 +14,7 @@
 --
 -- A curve starts at 0 for u <= 0 and ends at 1 for u >= 1; back, elastic and spring overshoot
 -- between.
-local core = require "celspan.core"
+local native = require "celspan.native"
 local fields = require "celspan.fields"
 
 local pi, sin, sqrt = math.pi, math.sin, math.sqrt
@@ -113,7 +113,7 @@ for i, name in ipairs(names) do penner[i] = "ease" .. name end
 local function steps(text)
   local count = tonumber(text)
   if not count or count < 1 or count ~= math.floor(count) then
-    core.refuse(("ease: steps takes a whole number of at least 1, got %q"):format(text))
+    native.refuse(("ease: steps takes a whole number of at least 1, got %q"):format(text))
   end
   return held(function(u) return math.floor(u * count) / count end)
 end
@@ -171,7 +171,7 @@ local function bezier(text)
   local x1, y1, x2, y2 = table.unpack(n)
   local good = #n == 4 and x1 >= 0 and x1 <= 1 and x2 >= 0 and x2 <= 1 and y1 == y1 and y2 == y2
   if not good then
-    core.refuse(("ease: bezier takes x1,y1,x2,y2 with x1 and x2 in 0..1, got %q"):format(text))
+    native.refuse(("ease: bezier takes x1,y1,x2,y2 with x1 and x2 in 0..1, got %q"):format(text))
   end
   return bezier_curve(x1, y1, x2, y2)
 end
@@ -185,9 +185,9 @@ local function find(_, name)
   local plain = name:lower():gsub("[-_ ]", "")
   local curve = curves[plain] or curves[plain:match "^ease(.*)$"]
   if curve then return curve end
-  local hint = directions[plain] and plain .. "sine" or core.nearest(plain, names)
-    or core.nearest(plain, penner)
-  core.refuse(("ease: there is no curve %q%s"):format(name,
+  local hint = directions[plain] and plain .. "sine" or native.nearest(plain, names)
+    or native.nearest(plain, penner)
+  native.refuse(("ease: there is no curve %q%s"):format(name,
     hint and ("; did you mean %q?"):format(hint)
       or "; celspan help lua ease describes the names"))
 end
@@ -199,5 +199,5 @@ return fields.publish("ease", setmetatable({
   --- Every name in its plain form: "inquad", "quadin", ...
   names = names,
 }, {
-  __call = core.entry(find),
+  __call = native.entry(find),
 }))

@@ -9,7 +9,7 @@
 -- track repeats (loop = "repeat") or alternates its direction (loop = "mirror").
 local celspan = require "celspan"
 local ease = require "celspan.ease"
-local core = require "celspan.core"
+local native = require "celspan.native"
 local fields = require "celspan.fields"
 local ordered = require "celspan.ordered"
 local pathdata = require "celspan.pathdata"
@@ -128,7 +128,7 @@ end
 
 --- Raises an error at the line that made the keys.
 local function complain(i, text, ...)
-  core.refuse(("keys: key %d "):format(i) .. text:format(...))
+  native.refuse(("keys: key %d "):format(i) .. text:format(...))
 end
 
 --- The fault of a single key, or nil.
@@ -231,9 +231,9 @@ local loops = { ["repeat"] = true, mirror = true }
 
 local function new(_, list)
   fields.check("keys", list, { "keys", loop = "string" })
-  if rawlen(list) == 0 then core.refuse("keys: needs at least one key {time, value}") end
+  if rawlen(list) == 0 then native.refuse("keys: needs at least one key {time, value}") end
   if list.loop ~= nil and not loops[list.loop] then
-    core.refuse(('keys: loop must be "repeat" or "mirror", got %s'):format(fields.key(list.loop)))
+    native.refuse(('keys: loop must be "repeat" or "mirror", got %s'):format(fields.key(list.loop)))
   end
   local keys, kind = read_keys(list)
   return setmetatable({ keys = keys, kind = kind, loop = list.loop }, Track)
@@ -270,4 +270,4 @@ end
 
 ---@class celspan.keys
 ---@overload fun(list: table): celspan.keys.track
-return fields.publish("keys", setmetatable({}, { __call = core.entry(new) }), Track)
+return fields.publish("keys", setmetatable({}, { __call = native.entry(new) }), Track)

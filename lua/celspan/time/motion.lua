@@ -11,7 +11,7 @@
 --
 --   local wind = motion.noise "wind"                           -- wind(x, y, z), -1..1
 local chance = require "celspan.chance"
-local core = require "celspan.core"
+local native = require "celspan.native"
 local curves = require "celspan.curves"
 local fields = require "celspan.fields"
 local springs = require "celspan.springs"
@@ -25,7 +25,7 @@ local Way = fields.class("celspan.motion.way", "a way")
 --- A list of points, which have two numbers each, as contours; contours have more numbers.
 local function contours_of(given)
   local list = table.move(given, 1, rawlen(given), 1, {})
-  if #list == 0 then core.refuse("motion: along needs at least one point") end
+  if #list == 0 then native.refuse("motion: along needs at least one point") end
   if type(list[1]) == "table" and rawlen(list[1]) > 3 then return list end
   for i, point in ipairs(list) do
     fields.numbers("motion", ("point %d: its value %%d"):format(i), point, 2, "{x, y}")
@@ -38,7 +38,7 @@ local function curve_of(outline)
     "motion: along takes path data, contours or a list of points {x, y}")
   local line = type(outline) == "string" and outline or contours_of(outline)
   local curve, message = curves.of("motion", line)
-  return curve or core.refuse("motion: " .. message)
+  return curve or native.refuse("motion: " .. message)
 end
 
 --- A path along path data, contours or points, measured by arc length.
@@ -123,7 +123,7 @@ function motion.noise(seed)
       fields.expect_kind(type(value) == "number", value,
         "motion: noise: coordinate %d must be a number", i)
     end
-    if x == nil then core.refuse "motion: noise takes one to three numbers, got none" end
+    if x == nil then native.refuse "motion: noise takes one to three numbers, got none" end
     local i, u = cell_of(x)
     local j, v = cell_of(y or 0)
     local k, w = cell_of(z or 0)

@@ -14,7 +14,7 @@
 -- the time, so every frame can be made by itself. Its path is a parabola under gravity, slowed by
 -- drag in closed form. If `field` is given, it turns a place on this path into another place.
 local chance = require "celspan.chance"
-local core = require "celspan.core"
+local native = require "celspan.native"
 local fields = require "celspan.fields"
 
 local exp = math.exp
@@ -42,7 +42,7 @@ local known = { seed = "any", rate = "number", life = "any", at = "table", veloc
                 gravity = "table", drag = "number", field = "function", from = "number",
                 to = "number" }
 
-local function refuse(text, ...) core.refuse("particles: " .. text:format(...)) end
+local function refuse(text, ...) native.refuse("particles: " .. text:format(...)) end
 
 --- Two or four numbers: x and y, and how far random values may differ from them.
 local function read_spread(name, value, default)
@@ -147,4 +147,4 @@ end
 
 ---@class celspan.particles
 ---@overload fun(settings: { seed?: string|number, rate: number, life: number|number[], at?: number[], velocity?: number[], gravity?: number[], drag?: number, field?: (fun(p: celspan.particle, time: number): number, number), from?: number, to?: number }): celspan.particles.source
-return fields.publish("particles", setmetatable({}, { __call = core.entry(new) }), Source)
+return fields.publish("particles", setmetatable({}, { __call = native.entry(new) }), Source)

@@ -8,7 +8,7 @@
 -- and lets T of the light behind it through. Under its original light it is the picture again,
 -- including highlights.
 local celspan = require "celspan"
-local core = require "celspan.core"
+local native = require "celspan.native"
 local fields = require "celspan.fields"
 
 local relight = {}
@@ -26,7 +26,7 @@ local function parse(text)
 end
 
 --- Raises an error at the line of the nearest caller outside celspan.
-local function refuse(text, ...) core.refuse("relight: " .. text:format(...)) end
+local function refuse(text, ...) native.refuse("relight: " .. text:format(...)) end
 
 local function numbers_of(name, value, count, shape)
   fields.expect_kind(type(value) == "table", value, "relight: %s must be %s", name, shape)
@@ -75,14 +75,14 @@ local function find_light(picture, options)
   local uneven = options.uneven
   if clue == clues.light and not uneven then return colour, colour end
   local blank = uneven and uneven ~= true and picture_of("uneven", uneven) or nil
-  local field, message = core.light_estimate(picture, clue, colour, patch, uneven and true or false,
-    blank)
+  local field, message = native.light_estimate(picture, clue, colour, patch,
+    uneven and true or false, blank)
   if not field then return nil, message end
   if not uneven then return field, field end
-  local w, h = core.picture_size(picture)
+  local w, h = native.picture_size(picture)
   if not w then return nil, h end
   local shape
-  shape, message = core.light_shape(field, w, h)
+  shape, message = native.light_shape(field, w, h)
   if not shape then return nil, message end
   return field, shape
 end
@@ -103,7 +103,7 @@ local function from_picture(options)
   local picture = picture_of("picture", options.picture)
   local field, light = find_light(picture, options)
   if not field then return nil, light end
-  local texture, message = core.relight_picture(picture, field)
+  local texture, message = native.relight_picture(picture, field)
   return texture, texture and light or message
 end
 
@@ -116,8 +116,8 @@ local function from_exposures(options)
   fields.check("relight: front", front, known)
   fields.check("relight: back", back, known)
   local light = colour_of("front.light", front.light)
-  local texture, message = core.relight_exposures(picture_of("front.picture", front.picture), light,
-    picture_of("back.picture", back.picture), colour_of("back.light", back.light))
+  local texture, message = native.relight_exposures(picture_of("front.picture", front.picture),
+    light, picture_of("back.picture", back.picture), colour_of("back.light", back.light))
   return texture, texture and light or message
 end
 
@@ -140,7 +140,7 @@ local function from_grounds(options)
     given[2 * i] = ground_of(name .. ".ground", shot.ground)
   end
   given[5] = colour_of("light", options.light or WHITE)
-  local texture, message = core.relight_grounds(table.unpack(given))
+  local texture, message = native.relight_grounds(table.unpack(given))
   return texture, texture and given[5] or message
 end
 
@@ -198,7 +198,7 @@ function relight.write(texture, path)
     refuse("write takes a relit picture, got %s", fields.kind(texture))
   end
   check_path("write", path)
-  return core.relight_write(texture, path)
+  return native.relight_write(texture, path)
 end
 
 ---@param path string Relative to the caller's file, else to the script
@@ -206,7 +206,7 @@ end
 ---@return string? message
 function relight.read(path)
   check_path("read", path)
-  return core.relight_read(path)
+  return native.relight_read(path)
 end
 
 -- ---------------------------------------------------------------- frames taken apart
@@ -231,12 +231,12 @@ local NUMBERS = 8 -- for each cel: r, g, b, a of its front light and of its back
 ---@return celspan.relight.stack? stack
 ---@return string? message
 function relight.stack(rostrum, options)
-  local stack, facts = core.stack(rostrum, options)
+  local stack, facts = native.stack(rostrum, options)
   if not stack then return nil, facts end
   local self = setmetatable({ width = math.tointeger(facts.width),
     height = math.tointeger(facts.height), bytes = math.tointeger(facts.bytes) }, Stack)
   behind[self] = { stack = stack, cels = facts.cels, brightness = facts.brightness,
-    mixes_codes = facts.mixes_codes, own = core.stack_lights(stack) }
+    mixes_codes = facts.mixes_codes, own = native.stack_lights(stack) }
   return self
 end
 
@@ -277,7 +277,7 @@ local function places_of(self, key)
   if #places > 0 then return places end
   local names = {}
   for _, cel in ipairs(self.cels) do names[#names + 1] = cel.name ~= "" and cel.name or nil end
-  local hint = type(key) == "string" and core.nearest(key, names)
+  local hint = type(key) == "string" and native.nearest(key, names)
   refuse("light: there is no cel %s%s", type(key) == "string" and ('"%s"'):format(key)
     or fields.shown(key), hint and ("; did you mean \"%s\"?"):format(hint) or "")
 end
@@ -320,7 +320,7 @@ function methods:light(changes)
       set_lights(self_behind, lights, i, changes[key])
     end
   end
-  return core.stack_light(self_behind.stack, lights)
+  return native.stack_light(self_behind.stack, lights)
 end
 
 return fields.publish("relight", relight, methods)

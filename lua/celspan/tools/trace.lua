@@ -7,7 +7,7 @@
 --
 -- Adjacent areas share their border: there are no gaps between them at any size.
 local celspan = require "celspan"
-local core = require "celspan.core"
+local native = require "celspan.native"
 local fields = require "celspan.fields"
 
 local trace = {}
@@ -114,8 +114,8 @@ function trace.picture(path, options)
   options = options == nil and {} or options
   fields.check("trace: picture", options, known)
   local checked, refused = check(options)
-  if not checked then core.refuse(refused) end
-  local found, message = core.trace(core.find(path), checked)
+  if not checked then native.refuse(refused) end
+  local found, message = native.trace(native.find(path), checked)
   if found then return wrap(found) end
   return nil, message
 end

@@ -8,7 +8,7 @@
 -- All positions are in pixels of the frames. In a lost frame positions are interpolated between the
 -- nearest frames before and after it in which the region was found.
 local celspan = require "celspan"
-local core = require "celspan.core"
+local native = require "celspan.native"
 local fields = require "celspan.fields"
 local files = require "celspan.files"
 local json = require "celspan.json"
@@ -88,7 +88,8 @@ end
 local function check_object(method, object)
   local noun = tostring(object)
   if type(object) ~= "userdata" or noun:find "^frame" or noun:find "^paint" then
-    core.refuse(("track: %s takes an object or a cel, got %s"):format(method, fields.kind(object)))
+    native.refuse(("track: %s takes an object or a cel, got %s"):format(method,
+      fields.kind(object)))
   end
 end
 
@@ -113,7 +114,7 @@ function methods:steady(object, f)
   fields.self("track", Track, self, "steady")
   check_object("steady", object)
   number_of("steady", f)
-  return object:transform(assert(core.inverse(self:motion(f))))
+  return object:transform(assert(native.inverse(self:motion(f))))
 end
 
 -- ---------------------------------------------------------------- following
@@ -126,7 +127,7 @@ local function check_options(options)
   local place
   for i, name in ipairs(models) do place = name == model and i - 1 or place end
   if not place then
-    core.refuse(("track: field 'model' must be \"%s\", got \"%s\""):format(
+    native.refuse(("track: field 'model' must be \"%s\", got \"%s\""):format(
       table.concat(models, '", "'), model))
   end
   fields.expect(options.from and math.type(math.tointeger(options.from)) == "integer", options.from,
@@ -135,7 +136,7 @@ local function check_options(options)
   if type(at) == "table" then
     fields.numbers("track", "at[%d]", at, 4, "{x, y, w, h} or an object")
   elseif type(at) ~= "userdata" or not pcall(celspan.cel, { at }) then -- a cel takes only objects
-    core.refuse("track: field 'at' must be {x, y, w, h} or an object, got " .. fields.kind(at))
+    native.refuse("track: field 'at' must be {x, y, w, h} or an object, got " .. fields.kind(at))
   end
   return place
 end
@@ -159,9 +160,9 @@ end
 
 --- The full pattern of the files, beside the caller's file or the script.
 local function find_pattern(pattern, from)
-  local name, message = core.frame_name(pattern, from)
+  local name, message = native.frame_name(pattern, from)
   if not name then return nil, message end
-  local there, tried = core.find(name)
+  local there, tried = native.find(name)
   if tried then
     return nil, ("%s: No such file; also looked for at %s"):format(there, tried)
   end
@@ -170,7 +171,7 @@ end
 
 --- The numbers of the requested frames, ascending, which must include `from`.
 local function list_frames(pattern, options)
-  local numbers, message = core.frames(pattern, options.frames)
+  local numbers, message = native.frames(pattern, options.frames)
   if not numbers then return nil, message end
   if #numbers == 0 then return nil, pattern .. ": there are no such files" end
   local has_from = false
@@ -186,14 +187,14 @@ end
 --- Follows the region through `numbers` in one direction; adds the data of each frame.
 local function follow_some(tracker, pattern, numbers, size, found)
   for _, number in ipairs(numbers) do
-    local path = core.frame_name(pattern, number)
+    local path = native.frame_name(pattern, number)
     local codes, w, h = read_frame(path)
     if not codes then return nil, ("frame %d: %s"):format(number, w) end
     if w ~= size[1] or h ~= size[2] then
       return nil, ("%s: has %d x %d pixels, and the first frame %d x %d"):format(path, w, h,
         size[1], size[2])
     end
-    local matrix, corners, agreeing, error_of = core.follow(tracker, codes, w, h)
+    local matrix, corners, agreeing, error_of = native.follow(tracker, codes, w, h)
     if not matrix and corners then return nil, ("%s: %s"):format(path, corners) end
     found[number] = matrix and { matrix = matrix, corners = corners, agreeing = agreeing,
                                  error = error_of } or false
@@ -240,19 +241,19 @@ function track.follow(pattern, options)
   local numbers
   numbers, message = list_frames(where, options)
   if not numbers then return nil, message end
-  local codes, w, h = read_frame(core.frame_name(where, from))
+  local codes, w, h = read_frame(native.frame_name(where, from))
   if not codes then return nil, ("frame %d: %s"):format(from, w) end
   local region, mask = region_of(options.at, w, h)
   if not region then return nil, ("%s: frame %d: %s"):format(pattern, from, mask) end
   local tracker
-  tracker, message = core.tracker(codes, w, h, model, region, mask)
+  tracker, message = native.tracker(codes, w, h, model, region, mask)
   if not tracker then return nil, ("%s: frame %d: %s"):format(pattern, from, message) end
   local found = { [from] = { matrix = IDENTITY, corners = 0, agreeing = 0, error = 0 } }
   local after, before = both_ways(numbers, from)
   local good
   good, message = follow_some(tracker, where, after, { w, h }, found)
   if good then
-    core.rewind(tracker)
+    native.rewind(tracker)
     good, message = follow_some(tracker, where, before, { w, h }, found)
   end
   if not good then return nil, message end
@@ -316,7 +317,7 @@ end
 local function sighting_in(entry, where)
   if entry.lost == true then return false end
   local matrix = numbers_in(entry.matrix, 9, where .. ".matrix")
-  demand(core.inverse(matrix), where .. ".matrix", "invertible")
+  demand(native.inverse(matrix), where .. ".matrix", "invertible")
   local error_of = entry.error
   demand(fields.is_finite(error_of) and error_of >= 0, where .. ".error", "a number, 0 or more")
   return { matrix = matrix, corners = whole_in(entry.corners, where .. ".corners"),

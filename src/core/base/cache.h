@@ -45,7 +45,7 @@ typedef struct cs_cache_counts {
 
 typedef struct cs_cache {
   cs_memory *memory;
-  size_t entry_size; /* of the user's structure, cs_cache_entry included */
+  size_t entry_size; /* size of the user's structure, cs_cache_entry included */
   /* Frees what an entry owns, even if its making has failed half-way. NULL: entries own nothing. */
   void (*clear)(cs_cache_entry *entry, cs_memory *memory);
   bool shrinks_on_unpin; /* it is also reduced to its budget when a pin is removed */

@@ -22,7 +22,7 @@ typedef struct cs_ceiling {
   uint64_t whole;      /* the memory that the process may use, of which this is a part */
   const char *whose;   /* the name of this memory in sentences */
   uint64_t limit;      /* the limit of the control group; 0: it has none */
-  int usage, stat;     /* of the group, or -1: see cs_control_group_used */
+  int usage, stat;     /* files of the group, or -1: see cs_control_group_used */
   atomic_size_t asked; /* until this many bytes are held, the group is not asked again */
 } cs_ceiling;
 

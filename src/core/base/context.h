@@ -23,7 +23,7 @@ typedef enum cs_account_kind {
 
 typedef struct cs_account {
   cs_account_kind kind;
-  cs_refusal refusal; /* of the last allocation that was larger than the one it replaced */
+  cs_refusal refusal; /* for the last allocation that was larger than its predecessor */
 } cs_account;
 
 /* Shared by a context, its branches and every value made in it; counted, because scene values may
@@ -83,9 +83,9 @@ struct celspan_context {
   celspan_context *root;          /* itself, or the context it was branched from */
   _Atomic(cs_service *) services; /* root only; owned; grows at its head, by any thread */
   size_t picture_bytes, defocus_bytes, map_bytes, held_bytes;
-  cs_mark origin; /* of the values that are made now; its source is kept while the line is 0 */
+  cs_mark origin; /* where values are made now; its source is kept while the line is 0 */
   const struct cs_picture_module *picture_module; /* root only; NULL: it is loaded on first use */
-  const struct cs_colour_module *colour_module;   /* likewise, for colour profiles */
+  const struct cs_colour_module *colour_module;   /* the same for colour profiles */
   const char *maker;     /* root only; borrowed; NULL: see cs_context_maker */
   atomic_int processors; /* root only; see cs_context_workers; 0: not counted yet */
   int forced_way;        /* root only; of tests: a cs_ways_forced (frames/render/ways.h) */
@@ -94,7 +94,7 @@ struct celspan_context {
   char error[CS_ERROR_SIZE];
 };
 
-/* The program that makes files, as their headers name it: that of the host, or "celspan" with its
+/* The program that makes files, as their headers name it: the host, or "celspan" with its
  * version. */
 const char *cs_context_maker(const celspan_context *context);
 

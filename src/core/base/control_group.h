@@ -5,8 +5,8 @@
  *   /proc/self/mountinfo     where the hierarchy is mounted, and which group is the mount's root
  *
  *   mount  /sys/fs/cgroup             limits of the root, if there are any
- *                /jobs                those of all jobs
- *                     /job.7          those of the group; on this way up the least counts
+ *                /jobs                the limits of all jobs
+ *                     /job.7          the limits of the group; on this way up the least counts
  *
  * Where a container sees its own group as the root of the mount, but a path from outside, the
  * mount's root is the group. What cannot be read, or makes no sense, is no limit.
@@ -20,7 +20,7 @@
 enum { CS_CONTROL_GROUP_PATH = 4096 };
 
 typedef struct cs_control_group {
-  double processors; /* of its quota of processor time; HUGE_VAL: it has none */
+  double processors; /* how many its quota of processor time is; HUGE_VAL: it has none */
   /* Bytes of the limit that leaves the least room: memory.max or memory.high.
    * CS_CONTROL_GROUP_NONE: there is no limit. */
   uint64_t memory;

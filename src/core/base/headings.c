@@ -15,7 +15,7 @@ enum { LINE_MOST = 65536 };
 typedef struct page {
   FILE *in, *out;
   const char *name;
-  bool is_code;   /* between two fences */
+  bool is_code;   /* the line is between two fences */
   bool is_wanted; /* the paragraph below the heading has not ended */
   bool is_begun;  /* the paragraph has a line */
 } page;

@@ -4,7 +4,7 @@
 
 #define FEW 32 /* keys that are sorted by insertion */
 #define BITS 11
-#define PASSES 3 /* over the upper half: 33 bits, of which the last is 0 */
+#define PASSES 3 /* passes over the upper half: 33 bits, the last of which is 0 */
 #define DIGITS (1u << BITS)
 
 static inline uint32_t digit_of(uint64_t key, int pass) {

@@ -23,8 +23,8 @@ typedef struct cs_module_desc {
   const struct cs_module_desc *other;
 } cs_module_desc;
 
-extern const cs_module_desc cs_modules_picture, cs_modules_art, cs_modules_colour, cs_modules_space,
-    cs_modules_pdf, cs_modules_web;
+extern const cs_module_desc cs_modules_picture, cs_modules_type, cs_modules_colour,
+    cs_modules_space, cs_modules_pdf, cs_modules_web;
 
 /* The table, valid for the rest of the process; it begins with `version`, as a uint32_t. Status
  * `failure` (INPUT or OUTPUT) when there is no such module, it cannot be read or loaded, or it is

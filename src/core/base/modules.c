@@ -27,9 +27,9 @@ const cs_module_desc cs_modules_picture = {
     .other = &raster,
 };
 
-const cs_module_desc cs_modules_art = {
-    MODULE("art", "ART", "type", CELSPAN_WITH_ART, "expat, HarfBuzz, FriBidi and libunibreak",
-           "art", "the celspan package with drawings and type"),
+const cs_module_desc cs_modules_type = {
+    MODULE("type", "TYPE", "type", CELSPAN_WITH_TYPE, "expat, HarfBuzz, FriBidi and libunibreak",
+           "type", "the celspan package with drawings and type"),
 };
 
 const cs_module_desc cs_modules_colour = {

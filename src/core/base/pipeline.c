@@ -18,7 +18,7 @@ struct cs_pipeline {
   cs_memory *memory;
   cs_pipeline_desc desc;
   slot *slots;
-  celspan_context *contexts; /* one a thread */
+  celspan_context *contexts; /* one for each thread */
   cs_thread *threads;
   int thread_count;        /* started */
   cs_account_kind account; /* the account of the owner */

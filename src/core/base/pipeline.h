@@ -21,7 +21,7 @@
  *   left to the owner. An item that is at or after `end` is not claimed any more, and one that is
  *   being made may ask whether it is still wanted.
  *   An item that fails moves `end` to the one after it. All items before it are still made, so the
- *   failure that is delivered first is that of the lowest number, whatever the number of workers.
+ *   failure that is delivered first has the lowest number, whatever the number of workers.
  *   Functions of the user run without the lock. `make` runs at most once an item, in the owner's
  *   thread (worker 0) or another; all other functions run in the owner's thread.
  *   With fewer threads than were wanted, or none, the same items are delivered in the same order.

@@ -46,8 +46,8 @@ typedef struct cs_spare cs_spare;
 typedef struct cs_spares {
   pthread_mutex_t lock;
   bool is_closed;                    /* nothing is kept from now on */
-  size_t bytes, most;                /* of the kept memory */
-  cs_spare *kept[CS_SPARES_CLASSES]; /* from malloc */
+  size_t bytes, most;                /* bytes of the kept memory: now, and at most */
+  cs_spare *kept[CS_SPARES_CLASSES]; /* blocks of malloc */
 } cs_spares;
 
 /* False: the system has no lock left. */

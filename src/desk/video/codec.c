@@ -131,7 +131,7 @@ const cs_video_codec cs_codec_apng = {.name = "apng",
                                       .deep_pixels = "rgb48be",
                                       .alpha_pixels = "rgba",
                                       .deep_alpha_pixels = "rgba64be"};
-/* The quality is that of AV1. Numbered pictures, which have no quality, have that of 75. */
+/* The quality is AV1's. Numbered pictures, which have no quality, get 75. */
 enum { AVIF_BEST = 11, AVIF_WORST = 63 };
 _Static_assert(AVIF_WORST + (AVIF_BEST - AVIF_WORST) * 75 / 100 == CS_AVIF_CRF, "quality 75");
 const cs_video_codec cs_codec_avif = {.name = CS_PICTURE_AVIF,

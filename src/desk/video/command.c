@@ -8,7 +8,7 @@
 #define FROM_RGB                                                                                   \
   "scale=out_color_matrix=bt709:out_range=tv:flags=area+accurate_rnd+full_chroma_int,"
 #define MOST_NAME 2000           /* bytes of a title */
-#define MOST_DENOMINATOR 1001000 /* of frames per second: NTSC rates such as 24000/1001 are exact */
+#define MOST_DENOMINATOR 1001000 /* NTSC's rates, such as 24000/1001, are exact */
 
 /* ---------------------------------------------------------------- arguments */
 

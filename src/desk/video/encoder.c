@@ -12,7 +12,7 @@
 
 #define THREADS_NEEDED 32          /* as many as the codecs of a film may start */
 #define NANOSECONDS 1000000000     /* in a second */
-#define PAUSE_NANOSECONDS 50000000 /* between two checks for a signal */
+#define PAUSE_NANOSECONDS 50000000 /* the pause between two checks for a signal */
 #define LAST_SECONDS 2.0 /* for an encoder that has stopped reading to write its message and end */
 #define PART 8192        /* samples that are read at a time */
 

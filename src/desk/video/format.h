@@ -32,17 +32,17 @@ typedef struct cs_video_codec {
   bool is_indexed;                   /* few colours for the whole film, for which ffmpeg dithers */
   bool is_deep;                      /* frames have 16 bits unless options request fewer */
   int32_t least_width, least_height; /* pixels */
-  int32_t most_side;                 /* 0: that of all videos */
+  int32_t most_side;                 /* 0: the limit of all videos */
   const char *module; /* the picture module codes this format of its own: RGBA; NULL: ffmpeg does */
   const char *title;  /* the title of these formats, in sentences */
   size_t pixel_bytes; /* that the module holds for each pixel of a frame; 0: it is not counted */
   const char *quality; /* the option for the quality; NULL: a palette's size, or it has none */
-  double best, worst;  /* its values at quality 100 and 0 */
+  double best, worst;  /* values of the option at quality 100 and 0 */
   int32_t most_crf;    /* the greatest value of -crf; 0: the encoder has no such option */
   bool has_fine_crf;   /* which may have a fraction */
 } cs_video_codec;
 
-enum { CS_VIDEO_CODECS = 6 }; /* of a format, at most */
+enum { CS_VIDEO_CODECS = 6 }; /* codecs of a format, at most */
 
 /* Where the picture of a film's poster is. */
 typedef enum cs_video_poster {
@@ -53,7 +53,7 @@ typedef enum cs_video_poster {
 
 typedef struct cs_video_format {
   const char *name;                              /* the ending */
-  const char *muxer;                             /* its name in ffmpeg */
+  const char *muxer;                             /* the name of the format in ffmpeg */
   const cs_video_codec *codecs[CS_VIDEO_CODECS]; /* the default first; NULL after the last */
   bool is_picture;                               /* one frame is a picture; several are a video */
   bool codes_stills;         /* one frame is coded as several are, with the options of a video */
@@ -65,7 +65,7 @@ typedef struct cs_video_format {
   bool has_chapters;
   cs_video_poster poster;
   const char *captions;      /* the encoder of captions; NULL: the format has none */
-  const char *captions_form; /* of the file that they are read from: "srt" or "webvtt" */
+  const char *captions_form; /* form of the file with the subtitles: "srt" or "webvtt" */
   struct {                   /* bytes in every file of the format */
     size_t offset;
     const char *bytes;
@@ -91,14 +91,14 @@ enum {
 /* The requested properties of a video. */
 typedef struct cs_video_options {
   const cs_video_codec *codec; /* the codec of the format */
-  celspan_coding coding;       /* its depth and transfer */
+  celspan_coding coding;       /* depth and transfer of the pixels */
   bool dithers;                /* where it has 8 bits */
-  bool is_opaque;              /* it has a background */
+  bool is_opaque;              /* each frame has a background */
   int32_t quality;             /* 0 to 100; the same quality looks alike with every codec */
   bool has_crf;                /* crf is the value of -crf, whatever the quality is */
   int32_t crf;
   double crf_less; /* below 1: taken away from it, where the encoder has such factors */
-  /* What the tags say of a coding that converts; 0: those of its curve. */
+  /* What the tags say of a coding that converts; 0: the values of its curve. */
   int32_t primaries, transfer;
   int32_t plays; /* how often it is played; 0: for ever */
 } cs_video_options;

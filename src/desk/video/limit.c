@@ -17,9 +17,9 @@
 
 #include "video/video.h"
 
-#define HALVING 6.0 /* of 51 factors; more where an encoder has more */
+#define HALVING 6.0 /* steps of 51 in which the size halves; more if an encoder has more */
 #define GUESSES 3
-#define FULL 0.9 /* of the limit: such a file is not made again to fill it */
+#define FULL 0.9 /* a file of this share of the limit is not made again */
 #define FINER 3  /* times that the distance of the neighbours is halved */
 
 typedef struct search {
@@ -27,7 +27,7 @@ typedef struct search {
   const char *master, *name;
   double over, fits; /* the greatest factor known to be over the limit, the least that fits */
   double made;       /* the factor of the file as it is */
-  double bytes;      /* of that file */
+  double bytes;      /* size of that file */
   double most_bytes; /* the most bytes of the files that fit; 0: none yet */
   int tries;
 } search;

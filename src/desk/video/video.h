@@ -31,10 +31,10 @@ typedef struct cs_video_desc {
   const char *chapters;        /* as in cs_video_extras; NULL: none */
   const char *captions;        /* a text in the captions_form of the format; NULL: none */
   const unsigned char *poster; /* RGBA of 8 bits, of the frames' size; NULL: none */
-  uint64_t most_bytes; /* of the file, whose quality is the highest that fits; 0: any number */
-  bool has_digests;    /* hashes the RGBA pixels of each frame */
-  int workers;         /* that make frames beside each other, if there is memory for it */
-  bool keeps_nothing;  /* makes one frame at a time */
+  uint64_t most_bytes;         /* the file gets the highest quality that fits; 0: any size */
+  bool has_digests;            /* hashes the RGBA pixels of each frame */
+  int workers;                 /* threads that make frames, if there is memory for it */
+  bool keeps_nothing;          /* makes one frame at a time */
 } cs_video_desc;
 
 typedef struct cs_video {

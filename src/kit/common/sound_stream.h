@@ -19,7 +19,7 @@ typedef struct cs_sound_stream {
   void *user;       /* owned; NULL: there is no sound */
   int32_t rate;     /* moments in a second */
   int32_t channels; /* the channels of a moment */
-  uint32_t places; /* of the channels around the listener, as WAV files number them; 0: the usual */
+  uint32_t places;  /* where channels are, numbered as in WAV files; 0: the usual */
   /* Reads up to `count` moments. *got: fewer only at the end, and after `stop`. context: that of
    * the calling thread. Errors: INPUT, LIMIT, NO_MEMORY, CANCELLED. */
   celspan_status (*read)(void *user, celspan_context *context, float *out, size_t count,

@@ -13,7 +13,7 @@
 #include "process/spawn.h"
 
 #define PIPE_BYTES (1 << 20)      /* the most that Linux allows every user */
-#define PAUSE_NANOSECONDS 2000000 /* between two checks whether the child has ended */
+#define PAUSE_NANOSECONDS 2000000 /* the pause between two checks whether the child has ended */
 
 /* ---------------------------------------------------------------- standard error */
 

@@ -20,7 +20,7 @@
 typedef struct cs_child {
   pid_t id;
   int input;   /* the caller closes it before the end */
-  int samples; /* likewise; -1: none */
+  int samples; /* closed by the caller, too; -1: none */
   int errors;  /* the child's standard error */
   cs_thread reader;
   cs_words words; /* joined at the end */

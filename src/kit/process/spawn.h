@@ -13,7 +13,7 @@ enum { CS_SPAWN_NULL = -1, CS_SPAWN_SAME = -2, CS_SPAWN_FILES = 8 };
 
 typedef struct cs_spawn_desc {
   const char *path;             /* NULL: found through PATH, by the first argument */
-  const char *const *arguments; /* its name first, NULL at the end */
+  const char *const *arguments; /* the name of the program first, NULL at the end */
   /* what becomes its descriptors 0, 1, ...: a descriptor of this process, whose number is the
    * same or beyond those of the list; /dev/null; or unchanged */
   const int *files;

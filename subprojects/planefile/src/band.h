@@ -252,8 +252,8 @@ void pf_band_free(const pf_memory *memory, pf_band *band);
 /* Finds the runs of a band whose borders are by their chains. False: no memory. */
 bool pf_band_make_runs(const pf_memory *memory, pf_band *out);
 
-/* Whether a plane that somebody wants to write has all that it refers to, on the grid, as readers accept
- * it. */
+/* Whether a plane that somebody wants to write has all that it refers to, on the grid, as readers
+ * accept it. */
 bool pf_plane_is_good(const planefile_band *plane, planefile_grid grid);
 
 /* -1, 0 or 1, for qsort: of numbers; of borders by their chains, then by their tops. */

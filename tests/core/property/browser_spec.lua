@@ -59,7 +59,7 @@ local function summary(scenes, name)
 end
 
 describe("a browser #plain", function()
-  if not (present.art() and present.program("chromium", "node")) then
+  if not (present.type() and present.program("chromium", "node")) then
     return pending "there is no chromium or no node"
   end
 

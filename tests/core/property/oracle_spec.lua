@@ -122,7 +122,7 @@ describe("the oracle", function()
     assert.is_true(excused[false] < tried / 5000, excused[false] .. " points were excused")
   end)
 
-  local with_type = present.art() and it or pending
+  local with_type = present.type() and it or pending
   with_type("agrees with the spans of random scenes of letters", function()
     local failures, tried, excused = try(COUNT // 4, { has_text = true })
     assert.are.equal("", failures)

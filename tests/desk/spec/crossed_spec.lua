@@ -21,7 +21,7 @@ teardown(function()
   for _, one in pairs(benches) do one:remove() end
 end)
 
-local has_pictures, has_art = present.pictures(), present.art()
+local has_pictures, has_type = present.pictures(), present.type()
 local has_cairo = present.pdf() and present.program "pdftocairo"
 local has_librsvg = present.program "rsvg-convert"
 
@@ -227,12 +227,12 @@ local COLUMNS = {
   -- lottie.md: layers, areas of a plane and pictures
   { "lottie", "l.json", read_lottie, 4, is_near = true },
   -- command-line.md, layers: within one code where one cel has an edge in a pixel
-  { "ora", "m.####.ora --layers cels", paintings "m.%04d.ora", 1, space = "srgb", has = has_art,
+  { "ora", "m.####.ora --layers cels", paintings "m.%04d.ora", 1, space = "srgb", has = has_type,
     differs = codes_differ },
-  { "psd", "n.####.psd --layers cels", paintings "n.%04d.psd", 1, space = "srgb", has = has_art,
+  { "psd", "n.####.psd --layers cels", paintings "n.%04d.psd", 1, space = "srgb", has = has_type,
     differs = codes_differ },
   { "psd 16", "o.####.psd --layers cels --depth 16", paintings "o.%04d.psd", 1, space = "srgb",
-    has = has_art, differs = codes_differ },
+    has = has_type, differs = codes_differ },
   { "psd 16, merged", "s.####.psd --layers cels --depth 16", pictures "s.%04d.psd", 1,
     has = has_pictures },
   { "exr layers", "p.####.exr --layers cels --depth float", read_exr_layers, 1, space = "linear",

@@ -192,7 +192,7 @@ describe("an installation that was moved", function()
     return libraries .. "/lua/5.4"
   end
 
-  local sets = present.art() and it or pending
+  local sets = present.type() and it or pending
   sets("has modules that Lua finds", function()
     write("letters.lua", [[
 local celspan = require "celspan"

@@ -5,7 +5,7 @@ local present = require "tests.support.present"
 local raised = require "tests.support.raised"
 local workbench = require "tests.support.workbench"
 
-local with_art = present.art() and it or pending
+local with_art = present.type() and it or pending
 
 local bench
 

@@ -12,7 +12,7 @@ local synonyms = dofile(VERBS .. "synonyms.lua")
 local topics = loadfile(VERBS .. "topics.lua")(recipes, headings, manual.names(), {})
 
 local function finder(rows)
-  local find = loadfile(VERBS .. "search.lua")(own "celspan.core".nearest, rows)
+  local find = loadfile(VERBS .. "search.lua")(own "celspan.native".nearest, rows)
   return function(words) return find(topics, words, 3) end
 end
 

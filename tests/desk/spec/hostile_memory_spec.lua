@@ -109,7 +109,7 @@ describe("the limit of memory #plain", function()
   local sentence = "the script needs more than 64 MiB (--limit memory=SIZE allows more)"
   for name, make in pairs(DRAWINGS) do
     it("counts what a drawing holds while it is read: " .. name, function()
-      if not present.art() then return pending "there is no art module" end
+      if not present.type() then return pending "there is no type module" end
       bench:write("drawing.svg", make())
       bench:write("film.lua", READ)
       ends("check film.lua --limit memory=64M -- answer", 6, "film.lua:4: " .. sentence, LIMIT)
@@ -118,7 +118,7 @@ describe("the limit of memory #plain", function()
 
   for _, way in ipairs { "pcall", "xpcall", "resume", "close" } do
     it("cannot be caught by " .. way, function()
-      if not present.art() then return pending "there is no art module" end
+      if not present.type() then return pending "there is no type module" end
       bench:write("drawing.svg", DRAWINGS.markers())
       bench:write("film.lua", READ)
       ends("check film.lua --limit memory=64M -- " .. way, 6, sentence, LIMIT)
@@ -134,7 +134,7 @@ describe("the limit of memory #plain", function()
   end
 
   it("does not depend on what the caches may hold", function()
-    if not present.art() then return pending "there is no art module" end
+    if not present.type() then return pending "there is no type module" end
     bench:write("drawing.svg", DRAWINGS.uses())
     bench:write("film.lua", READ)
     for _, memory in ipairs { 0, 100, 4000 } do

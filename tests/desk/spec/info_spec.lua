@@ -96,7 +96,7 @@ describe("the verb info", function()
 
     describe("that contain artwork", function()
       local paintings = require "tests.support.paintings"
-      local it_reads_artwork = present.art() and it or pending
+      local it_reads_artwork = present.type() and it or pending
 
       local function dot(x, y) return x * 80, y * 80, 0, 255 end
 

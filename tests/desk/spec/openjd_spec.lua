@@ -225,7 +225,7 @@ describe("the template of Open Job Description", function()
     outside:remove()
   end)
 
-  local it_draws = present.art() and it or pending
+  local it_draws = present.type() and it or pending
   it_draws("finds files that drawings show", function()
     local outside = workbench.new()
     outside:write("inner.svg", '<svg xmlns="http://www.w3.org/2000/svg" width="6" height="4"/>')

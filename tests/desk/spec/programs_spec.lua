@@ -6,7 +6,7 @@ local present = require "tests.support.present"
 local system = require "tests.support.system"
 local workbench = require "tests.support.workbench"
 
-local it_sets_type = present.art() and it or pending
+local it_sets_type = present.type() and it or pending
 
 local FILM = [[
 local celspan = require "celspan"

@@ -14,7 +14,7 @@ local svg = require "celspan.svg"
 local workbench = require "tests.support.workbench"
 
 local bench = workbench.new()
-local with_art = present.art and it or pending
+local with_art = present.type and it or pending
 
 -- ---------------------------------------------------------------- chains
 

@@ -138,7 +138,7 @@ script film.lua
 sound deep.wav
 sound shot.wav]]
 
-local it_reads = present.spaces() and present.pictures() and present.art()
+local it_reads = present.spaces() and present.pictures() and present.type()
   and present.program "ffmpeg" and it or pending
 
 describe("check --files", function()

@@ -135,7 +135,7 @@ function shows.relight(file)
   return middle_of("relight %s -o %s --light '#fff' --to '#fff'", file[1])
 end
 
-local it_sees = present.pictures() and present.art() and it or pending
+local it_sees = present.pictures() and present.type() and it or pending
 
 local of_films = { "render", "contact", "probe", "tiles", "watch" }
 local of_pictures = { "convert", "trace", "relight" }

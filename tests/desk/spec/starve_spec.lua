@@ -98,7 +98,7 @@ local function check(plan, ending, right, command)
 end
 
 --- A plan for each of the allocations of the last run, or for some of them at random. GLib, which a
---- library of the art module needs, ends the process or waits for itself if memory runs out while
+--- library of the type module needs, ends the process or waits for itself if memory runs out while
 --- it is loaded: then no file may be left.
 local function plans(lasts, samples)
   local list, count, loading, loaded = {}, counts()
@@ -117,7 +117,7 @@ local function sweep(scene, ending, lasts)
   for _, plan in ipairs(plans(lasts, SAMPLES)) do check(plan, ending, right) end
 end
 
---- Scenes that need the art module: libraries that continue without memory would draw something
+--- Scenes that need the type module: libraries that continue without memory would draw something
 --- else.
 local art = {
   letters = [[
@@ -141,7 +141,7 @@ stroke="#888" stroke-width="4"/></mask></defs><rect class="a" x="2" y="2" width=
 <circle id="c" cx="20" cy="20" r="5"/></svg>]]
 
 local function sweep_art(scene, lasts)
-  if not present.art() then return pending "there is no art module" end
+  if not present.type() then return pending "there is no type module" end
   bench:write("font.ttf", system.read "scripts/type/block.ttf")
   bench:write("drawing.svg", DRAWING)
   sweep(art[scene], "png", lasts)
@@ -163,7 +163,7 @@ local function sweep_profile(lasts)
 end
 
 local function sweep_info(lasts)
-  if not present.art() then return pending "there is no art module" end
+  if not present.type() then return pending "there is no type module" end
   bench:write("drawing.svg", DRAWING)
   local code, right = starve({ at = 0 }, "drawing.svg", "info ")
   assert.are.equal(0, code)

@@ -4,7 +4,7 @@ local flashes = require "tests.support.flashes"
 local present = require "tests.support.present"
 local workbench = require "tests.support.workbench"
 
-local it_sets_type = present.art() and it or pending
+local it_sets_type = present.type() and it or pending
 
 local HEAD = [[
 local celspan = require "celspan"

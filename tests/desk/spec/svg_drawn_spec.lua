@@ -8,7 +8,7 @@ local present = require "tests.support.present"
 local system = require "tests.support.system"
 local workbench = require "tests.support.workbench"
 
-if not (present.art() and present.pictures()
+if not (present.type() and present.pictures()
   and present.program("chromium", "node", "rsvg-convert")) then
   return pending "there is no chromium, no node or no librsvg"
 end

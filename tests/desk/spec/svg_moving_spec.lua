@@ -7,7 +7,7 @@ local present = require "tests.support.present"
 local svg = require "celspan.svg"
 local workbench = require "tests.support.workbench"
 
-if not present.art() then return pending "celspan was built without expat" end
+if not present.type() then return pending "celspan was built without expat" end
 
 local bench
 
@@ -589,7 +589,7 @@ describe("bad input", function()
     assert.is_true(peak() - before < 64 * 1024)
   end)
 
-  it("is the same, whether time goes on or back", function()
+  it("is the same, whether time runs forwards or back", function()
     local text = box('<animate id="a" attributeName="x" by="40" dur="0.4s" begin="0;b.end+0.1s"/>'
       .. '<animate id="b" attributeName="y" by="3" dur="0.3s" begin="a.end" end="a.end+0.2s"/>')
     local on, back = read(text), read(text)
@@ -608,7 +608,7 @@ describe("bad input", function()
     local art = read(box(table.concat(list)))
     assert.are.equal(20000, art.seconds)
     assert.are.equal(0.5, x_at(art, 19999.5))
-    -- each time goes on from the one before
+    -- each time continues the one before
     for i = 1, 3 do assert.are.equal(0.5 + i / 64, x_at(art, 19999.5 + i / 64)) end
     assert.is_true(os.clock() - begun < 10)
   end)

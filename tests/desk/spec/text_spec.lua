@@ -12,7 +12,7 @@ local FONT = "../../../scripts/type/block.ttf"
 local PATH = "scripts/type/block.ttf"
 
 -- Built without the libraries for type, there is nothing to test except the font.
-local it = present.art() and it or pending
+local it = present.type() and it or pending
 
 local function read(path) return assert(system.read(path)) end
 
@@ -546,22 +546,23 @@ describe("the command line", function()
   end)
 
   it("reports which module is missing", function()
-    local code, message = check('"A", ' .. font, "CELSPAN_ART_MODULE=/nowhere/art.so")
+    local code, message = check('"A", ' .. font, "CELSPAN_TYPE_MODULE=/none/type.so")
     assert.are.equal(4, code)
-    assert.is_truthy(message:find("setting type needs the module celspan-art.so", 1, true), message)
+    assert.is_truthy(message:find("setting type needs the module celspan-type.so", 1, true),
+      message)
   end)
 
   it("does not load it for a film without text", function()
-    local code = check('"A", ' .. font, "CELSPAN_ART_MODULE=/nowhere/art.so")
+    local code = check('"A", ' .. font, "CELSPAN_TYPE_MODULE=/none/type.so")
     local script = temporary 'local celspan = require "celspan"\nreturn celspan.rostrum {}'
     assert.are.equal(4, code)
-    assert.is_true(os.execute(("CELSPAN_ART_MODULE=/nowhere/art.so '%s' check '%s' >/dev/null 2>&1")
+    assert.is_true(os.execute(("CELSPAN_TYPE_MODULE=/none/type.so '%s' check '%s' >/dev/null 2>&1")
       :format(BINARY, script)))
   end)
 end)
 
 describe("a collection of fonts", function()
-  local it_sets_type = present.art() and it or pending
+  local it_sets_type = present.type() and it or pending
 
   --- The project's font, `count` times under one header; faces share its tables.
   local function collection(count)

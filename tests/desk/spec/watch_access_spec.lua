@@ -26,7 +26,7 @@ after_each(watching.finish)
 describe("the controls of the page of celspan watch #plain", function()
   it("have names, and those with a key say it, as the list of keys does", function()
     local said = watching.see(watching.watch(), [=[
-      await page.until(`${stage("frame")} === "1"`);
+      await page.until(`${canvas("frame")} === "1"`);
       for (const key of "sq") await page.press(key);
       await page.until(`document.querySelectorAll("#object-list li, #names li").length === 4`);
       return page.get(`(() => {
@@ -65,14 +65,14 @@ describe("the page of celspan watch #plain", function()
         found.push(...one.bad.map(bad => where + ": " + bad));
         if (one.passed < 10) found.push(where + ": only " + one.passed + " rules passed");
       };
-      await page.until(`${stage("frame")} === "1"`);
+      await page.until(`${canvas("frame")} === "1"`);
       await page.get(require("fs").readFileSync("]=] .. AXE .. [=[", "utf8") + "; 0");
       const themes = {};
       for (const theme of ["one", "other"]) {
         await look(theme);
         for (const key of "ysn") await page.press(key);
         await page.until(`document.querySelectorAll("#names li").length > 1`);
-        await page.until(`document.querySelector("#stage2").dataset.frame === "1"
+        await page.until(`document.querySelector("#canvas2").dataset.frame === "1"
           && document.querySelector("#form2 input")`);
         await look(theme + " with values");
         await page.press("c");
@@ -90,7 +90,7 @@ describe("the page of celspan watch #plain", function()
         }
         await page.press("p");
         await page.settle();
-        const box = await page.get(`(() => { const box = document.querySelector("#stage")
+        const box = await page.get(`(() => { const box = document.querySelector("#canvas")
           .getBoundingClientRect(); return [box.left + 9, box.top + 9]; })()`);
         await page.click(...box);
         await page.until(`document.querySelectorAll("#hits li").length > 1`);

@@ -78,36 +78,36 @@ describe("the page of celspan watch with two films #plain", function()
   if not present.program "chromium" then return pending "there is no chromium" end
 
   local HELP = [[
-    const beside = name => `document.querySelector("#stage2").dataset.${name}`;
+    const beside = name => `document.querySelector("#canvas2").dataset.${name}`;
     const colour = id => page.get(`[...document.querySelector("#${id}").getContext("2d")
       .getImageData(3, 3, 1, 1).data].slice(0, 3)`);
-    await page.until(`${stage("frame")} === "1"`);
+    await page.until(`${canvas("frame")} === "1"`);
   ]]
 
   it("shows scripts at the same time of each, and an error over one alone", function()
     local said = watching.see(watching.watch "shot.lua other.lua", HELP .. [=[
       await page.until(`${beside("frame")} === "1"`);
       const at = async () =>
-        [await page.get(stage("frame")), await page.get(beside("frame"))].join();
+        [await page.get(canvas("frame")), await page.get(beside("frame"))].join();
       const seen = [];
       for (const other of [1, 2, 2, 3]) {
         await page.press("ArrowRight");
-        await page.until(`${beside("frame")} === "${other}" && ${stage("frame")} ===
+        await page.until(`${beside("frame")} === "${other}" && ${canvas("frame")} ===
           document.querySelector("#frame").textContent`);
         seen.push(await at());
       }
       await page.press("End");
-      await page.until(`${beside("frame")} === "10" && ${stage("frame")} === "48"`);
+      await page.until(`${beside("frame")} === "10" && ${canvas("frame")} === "48"`);
       const captions = [await text("caption"), await text("caption2")];
       const desks = await page.get(`["#desk", "#desk2"].map(id =>
         document.querySelector(id).getBoundingClientRect().width)`);
       page.write("]=] .. watching.bench.folder .. [=[/other.lua", "return nil +");
       await page.until(`!document.querySelector("#error2").hidden`);
-      const old = await page.get(`["#stage", "#stage2"].map(id =>
+      const old = await page.get(`["#canvas", "#canvas2"].map(id =>
         document.querySelector(id).classList.contains("old"))`);
       await page.press("y");
       await page.until(`document.querySelector("#desk2").hidden`);
-      return { seen, captions, desks, old, blue: await colour("stage2") };]=])
+      return { seen, captions, desks, old, blue: await colour("canvas2") };]=])
     assert.same({ "2,1", "3,2", "4,2", "5,3" }, said.seen)
     assert.same({ "shot.lua", "other.lua" }, said.captions)
     assert.is_true(math.abs(said.desks[1] - said.desks[2]) <= 2)
@@ -124,14 +124,14 @@ describe("the page of celspan watch with two films #plain", function()
       await page.until(`${beside("frame")} === "1" && document.querySelector("#form2 input")`);
       const same = await text("caption2");
       await give(1);
-      await page.until(`document.querySelector("#stage2").getContext("2d")
+      await page.until(`document.querySelector("#canvas2").getContext("2d")
         .getImageData(3, 3, 1, 1).data[0] === 255`);
       await page.press("End");
-      await page.until(`${beside("frame")} === "48" && ${stage("frame")} === "48"`);
-      const colours = [await colour("stage"), await colour("stage2")];
+      await page.until(`${beside("frame")} === "48" && ${canvas("frame")} === "48"`);
+      const colours = [await colour("canvas"), await colour("canvas2")];
       const captions = [await text("caption"), await text("caption2")];
       await page.press("d");
-      const difference = await colour("stage");
+      const difference = await colour("canvas");
       await page.press("d");
       for (let i = 0; i < 4; i++) {
         await page.press("y");
@@ -141,13 +141,13 @@ describe("the page of celspan watch with two films #plain", function()
       await page.press(" ");
       await page.pause(0.5);
       await page.press(" ");
-      await page.until(`${beside("frame")} === ${stage("frame")}
-        && ${stage("frame")} === document.querySelector("#frame").textContent`);
+      await page.until(`${beside("frame")} === ${canvas("frame")}
+        && ${canvas("frame")} === document.querySelector("#frame").textContent`);
       const hash = await page.get("location.hash");
       const command = await page.get(`document.querySelector("#command").value`);
       await page.load();
       await page.until(`document.querySelector("#form2 input")?.value === "1"`);
-      await page.until(`document.querySelector("#stage2").getContext("2d")
+      await page.until(`document.querySelector("#canvas2").getContext("2d")
         .getImageData(3, 3, 1, 1).data[0] === 255`);
       return { same, colours, captions, difference, hash, command };]=])
     assert.equal("the same values", said.same)

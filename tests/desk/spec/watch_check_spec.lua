@@ -71,7 +71,7 @@ describe("what is wrong with a film that is watched", function()
     if not present.program "chromium" then return pending "there is no chromium" end
     local said = watching.see(watching.watch "shot.lua --editor true", [=[
       const folder = "]=] .. watching.bench.folder .. [=[";
-      await page.until(`${stage("frame")} === "1"`);
+      await page.until(`${canvas("frame")} === "1"`);
       await page.press("r");
       await page.until(`document.querySelector("#checked").textContent === "24 frames checked"`);
       const items = await page.get(`[...document.querySelectorAll("#fault-list li")]
@@ -80,7 +80,7 @@ describe("what is wrong with a film that is watched", function()
       const button = await text("check");
       await page.get(`[...document.querySelectorAll("#fault-list button")]
         .find(one => one.textContent === "frame 5").click()`);
-      await page.until(`${stage("frame")} === "5"`);
+      await page.until(`${canvas("frame")} === "5"`);
       page.write(folder + "/shot.lua", ]=] .. ("%q"):format(GOOD):gsub("\\\n", "\\n") .. [=[);
       await page.until(`document.querySelector("#checked").textContent
         === "24 frames checked: no faults"`);

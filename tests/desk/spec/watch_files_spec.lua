@@ -40,7 +40,7 @@ describe("a parameter that is a file", function()
     local said = watching.see(watching.watch(), [=[
       const select = `document.querySelector("#form select")`;
       const options = () => page.get(`[...${select}.options].map(one => one.value)`);
-      const colour = () => page.get(`[...document.querySelector("#stage").getContext("2d")
+      const colour = () => page.get(`[...document.querySelector("#canvas").getContext("2d")
         .getImageData(3, 3, 1, 1).data].slice(0, 3).join()`);
       const choose = async (name, wanted) => {
         await page.get(`(() => { ${select}.value = "${name}";
@@ -48,7 +48,7 @@ describe("a parameter that is a file", function()
         for (let i = 0; i < 100 && await colour() !== wanted; i++) await page.pause(0.05);
         return colour();
       };
-      await page.until(`${stage("frame")} === "1"`);
+      await page.until(`${canvas("frame")} === "1"`);
       await page.press("v");
       await page.until(`${select}?.options.length === 3`);
       const first = await options(), seen = [await colour()];

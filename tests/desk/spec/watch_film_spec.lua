@@ -34,10 +34,10 @@ describe("a film that is watched", function()
     if not present.program "chromium" then return pending "there is no chromium" end
     watching.begin { ["shot.lua"] = FILM }
     local seen = watching.see(watching.watch(), [=[
-      await page.until(`${stage("frame")} === "47"`);
+      await page.until(`${canvas("frame")} === "47"`);
       const opened = await text("frame");
       await page.press("Home");
-      await page.until(`${stage("frame")} === "11"`);
+      await page.until(`${canvas("frame")} === "11"`);
       return opened;]=])
     assert.equal("37", seen)
   end)

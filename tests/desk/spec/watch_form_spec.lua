@@ -23,7 +23,7 @@ return cut { { film = shot "#8cf", name = "day" }, cut.dissolve(0.5),
 
 -- Steps that open the form, choose in it as a hand does, and read it.
 local HELP = [=[
-  await page.until(`${stage("frame")} === "1"`);
+  await page.until(`${canvas("frame")} === "1"`);
   const field = name => `document.querySelector("#render-form").elements.${name}`;
   const value = name => page.get(`${field(name)}.value`);
   const choose = (name, value) => page.get(`(() => { const one = ${field(name)};

@@ -38,10 +38,10 @@ local function see(script)
   watching.bench:write("shot.lua", (script:gsub("NAME", function() return NAME end)))
   return watching.see(watching.watch(), [=[
     const count = selector => page.get(`document.querySelectorAll("${selector}").length`);
-    await page.until(`${stage("frame")} === "1"`);
+    await page.until(`${canvas("frame")} === "1"`);
     for (const key of ["s", "q", "End"]) await page.press(key);
     const last = await text("frames");
-    await page.until(`${stage("frame")} === "${last}"`);
+    await page.until(`${canvas("frame")} === "${last}"`);
     await page.until(`document.querySelector("#objects").ariaBusy === "false"
       && document.querySelector("[data-object]")`);
     return { last, code: await text("timecode"), shots: await count("[data-shot]"),

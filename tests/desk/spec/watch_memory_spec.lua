@@ -46,16 +46,16 @@ describe("the memory of celspan watch #plain", function()
         const held = (usedSize + backingStorageSize) / 1048576;
         return [resident(server), Math.max(...all), held, all.length];
       };
-      await page.until(`${stage("frame")} === "1"`);
+      await page.until(`${canvas("frame")} === "1"`);
       await page.press("r");
       const seen = [];
       for (let i = 1; i <= saves; i++) {
-        const build = await page.get(`Number(${stage("build")})`);
+        const build = await page.get(`Number(${canvas("build")})`);
         const isBad = i % 10 === 7, text = film.replace("LEVEL", i % 20 === 7 ? 5 : i + 10);
         page.write(folder + "/shot.lua", i % 20 === 17 ? "return nil +" : text);
         await page.until(isBad ? `!document.querySelector("#error").hidden`
-          : `${stage("build")} > ${build} && document.querySelector("#error").hidden
-            && ${stage("size")}.split("x")[0] > 400`);
+          : `${canvas("build")} > ${build} && document.querySelector("#error").hidden
+            && ${canvas("size")}.split("x")[0] > 400`);
         if (i === 10 || i === saves) seen.push(await measure());
       }
       return seen;]=], 30 + SAVES)

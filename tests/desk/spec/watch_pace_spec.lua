@@ -124,13 +124,13 @@ return celspan.film { size = { 64, 36 }, frame = function()
 end }
 ]] }
     local said = watching.see(watching.watch() .. "#size=7", [=[
-      await page.until(`document.querySelector("#stage").dataset.build === "2"
+      await page.until(`document.querySelector("#canvas").dataset.build === "2"
         && !document.querySelector("[data-stale]")`);
       return page.get(`(({ searchParams: query }, { dataset }) => ({
         asked: [query.get("size"), query.get("crop"), query.get("build")],
         shown: [dataset.size, dataset.crop, dataset.build] }))(
           new URL(performance.getEntriesByType("resource").map(one => one.name)
-            .find(name => name.includes("/frame/"))), document.querySelector("#stage"))`);]=])
+            .find(name => name.includes("/frame/"))), document.querySelector("#canvas"))`);]=])
     assert.same(said.shown, said.asked)
   end)
 
@@ -144,11 +144,11 @@ return celspan.film { size = { 64, 36 }, frames = 48,
   end }
 ]] }
     local said = watching.see(watching.watch(), [=[
-      const stageOf = `document.querySelector("#stage")`;
-      await page.until(`${stageOf}.dataset.build > 0
+      const canvasOf = `document.querySelector("#canvas")`;
+      await page.until(`${canvasOf}.dataset.build > 0
         && performance.getEntriesByType("resource").some(one => one.name.includes("/wave.json"))`);
       await page.get(`(() => {
-        const ask = window.fetch, { build, size } = ${stageOf}.dataset, { width } = ${stageOf};
+        const ask = window.fetch, { build, size } = ${canvasOf}.dataset, { width } = ${canvasOf};
         // a slow machine shows a coarse picture, too
         const nameOf = address => !address.includes("/frame/") ? address.replace(/[?].*/, "")
           : address.includes("?size=" + size + "&") ? "picture" : "coarse picture";
@@ -171,10 +171,10 @@ return celspan.film { size = { 64, 36 }, frames = 48,
           return answer;
         };
         new MutationObserver(() => {
-          if (${stageOf}.dataset.build !== build && !said.includes("seen")) {
+          if (${canvasOf}.dataset.build !== build && !said.includes("seen")) {
             said.push("seen", drawn);
           }
-        }).observe(${stageOf}, { attributes: true });
+        }).observe(${canvasOf}, { attributes: true });
         const field = document.querySelector("#form [name=size]");
         field.value = 7;
         field.dispatchEvent(new Event("input", { bubbles: true }));
@@ -204,7 +204,7 @@ return celspan.film { size = { 64, 36 }, frames = 48, marks = { bell = 40 }, fra
 end }
 ]] }
     local said = watching.see(watching.watch(), [=[
-      const build = `Number(document.querySelector("#stage").dataset.build)`;
+      const build = `Number(document.querySelector("#canvas").dataset.build)`;
       await page.until(`${build} > 0 && document.querySelector("#marks button")`);
       await page.get(`(() => {
         window.first = ${build};
@@ -220,7 +220,7 @@ end }
       return { list: await page.get("[...written]") };]=])
     local written = {}
     for _, id in ipairs(said.list) do written[id] = true end
-    assert.is_true(written.stage)
+    assert.is_true(written.canvas)
     for _, id in ipairs { "marks", "shots", "title", "frame", "timecode", "zoom", "facts", "spot",
                           "compare", "render-state", "render-progress", "render-cancel", "mute",
                           "overlay" } do

@@ -82,7 +82,7 @@ local function see(steps, script)
     };
     const colour = (x, y) => page.get(`(canvas => [...canvas.getContext("2d").getImageData(
       canvas.width * ${x} / 64, canvas.height * ${y} / 36, 1, 1).data].slice(0, 3))(
-      document.querySelector("#stage"))`);
+      document.querySelector("#canvas"))`);
     const turns = async (from, x, y) => {
       for (let i = 0; i < 100 && (await colour(x, y)).join() === from.join(); i++) {
         await page.pause(0.05);
@@ -92,7 +92,7 @@ local function see(steps, script)
     const stub = code => page.get(`(() => { const real = window.fetch, seen = window.seen = {};
       const json = (value, status = 200) => new Response(JSON.stringify(value), { status });
       window.fetch = async (address, more) => { ${code}; return real(address, more); }; })()`);
-    await page.until(`${stage("frame")} === "1"`);]=] .. steps)
+    await page.until(`${canvas("frame")} === "1"`);]=] .. steps)
 end
 
 before_each(function() watching.begin {} end)
@@ -104,7 +104,7 @@ describe("the page of celspan watch under hands #plain", function()
       await page.press("s");
       await page.until(`document.querySelectorAll("[data-row]").length === 4`);
       await page.press("End");
-      await page.until(`${stage("frame")} === "48"`);
+      await page.until(`${canvas("frame")} === "48"`);
       const rows = await all("[data-row]", "one.dataset.row");
       return { rows, height: await of("#cells", "one.style.height") };]=], CUT)
     assert.same({ "evening", "evening / sun", "evening / cel 1", "night" }, said.rows)
@@ -135,7 +135,7 @@ describe("the page of celspan watch under hands #plain", function()
       const rows = await all("[data-row]", "one.dataset.row");
       await page.press("p");
       await page.settle();
-      const spot = await of("#stage", `(box => [box.x + box.width * 8 / 64,
+      const spot = await of("#canvas", `(box => [box.x + box.width * 8 / 64,
         box.y + box.height * 6 / 36])(one.getBoundingClientRect())`);
       await page.click(...spot);
       await page.until(`document.querySelectorAll("#hits li").length > 2`);
@@ -210,7 +210,7 @@ describe("the page of celspan watch under hands #plain", function()
       await page.until(`document.querySelectorAll("[data-row]").length === 3`);
       await page.until(`document.querySelector("#timeline").ariaBusy === "false"`);
       await page.press("p");
-      await click("#stage");
+      await click("#canvas");
       await page.until(`document.querySelectorAll("#hits li").length > 0`);
       return { isBusy, hint, words };]=]
     assert.same({ isBusy = "true", hint = true, words = '"reading …"' }, said)
@@ -239,7 +239,7 @@ describe("the page of celspan watch under hands #plain", function()
   it("shows neighbours of chosen cels, behind them", function()
     local said = see [=[
       await page.press("ArrowRight"); await page.press("ArrowRight");
-      await page.until(`${stage("frame")} === "3"`);
+      await page.until(`${canvas("frame")} === "3"`);
       await page.press("q");
       await page.until(`document.querySelectorAll("[data-object]").length === 3`);
       const plain = await colour(12, 30);
@@ -274,8 +274,8 @@ describe("the page of celspan watch under hands #plain", function()
       page.write("]=] .. watching.bench.folder .. [=[/shot.lua", ]=]
       .. ("%q"):format(tall):gsub("\\\n", "\\n") .. [=[);
       await page.until(`document.querySelector("[data-mark=late]")`);
-      await page.until(`document.querySelector("#stage").width
-        < document.querySelector("#stage").height`);
+      await page.until(`document.querySelector("#canvas").width
+        < document.querySelector("#canvas").height`);
       return all("[data-mark]", "one.dataset.mark");]=])
     assert.same({ "late" }, said)
   end)
@@ -294,7 +294,7 @@ describe("the page of celspan watch under hands #plain", function()
       await page.press("g");
       await set("#number", `one.value = "5"`);
       await page.press("Enter");
-      await page.until(`${stage("frame")} === "5"`);
+      await page.until(`${canvas("frame")} === "5"`);
       await page.press("g");
       await set("#number", `one.value = "9"`);
       await page.call("Input.dispatchKeyEvent", { type: "keyDown", key: "Escape", code: "Escape",
@@ -362,7 +362,7 @@ describe("the page of celspan watch under hands #plain", function()
       await stub(`if (address.startsWith("/at/")) { seen.now = (seen.now ?? 0) + 1;
         seen.most = Math.max(seen.most ?? 0, seen.now); seen.count = (seen.count ?? 0) + 1;
         await new Promise(done => setTimeout(done, 300)); seen.now--; }`);
-      const [x, y] = await of("#stage",
+      const [x, y] = await of("#canvas",
         `(box => [box.x + 99, box.y + 99])(one.getBoundingClientRect())`);
       for (let i = 0; i < 8; i++) {
         await page.mouse("mouseMoved", x + 4 * i, y);
@@ -380,7 +380,7 @@ describe("the page of celspan watch under hands #plain", function()
         return celspan.rostrum { celspan.cel { celspan.rect { 0, 0, 8, 8 } }:named "late" } end }]])
     watching.bench:write("shot.lua", film())
     local said = watching.see(watching.watch "shot.lua other.lua", [=[
-      await page.until(`document.querySelector("#stage2").dataset.frame === "1"`);
+      await page.until(`document.querySelector("#canvas2").dataset.frame === "1"`);
       await page.press("s");
       await page.until(`document.querySelectorAll("[data-row]").length === 5`);
       return page.get(`[...document.querySelectorAll("[data-row]")]
@@ -419,7 +419,7 @@ describe("the page of celspan watch under hands #plain", function()
 
   it("drags a point within the film on a grid, and gives values before by ctrl-z", function()
     local said = see [=[
-      const place = (x, y) => of("#stage", `(box => [box.x + box.width * ${x} / 64,
+      const place = (x, y) => of("#canvas", `(box => [box.x + box.width * ${x} / 64,
         box.y + box.height * ${y} / 36])(one.getBoundingClientRect())`);
       const value = () => of("#form [name=at]", "one.value");
       const drag = async (x, y, modifiers = 0) => {
@@ -492,8 +492,8 @@ describe("the page of celspan watch under hands #plain", function()
     local said = see([=[
       const give = (name, text) => set(`#form [name=${name}]`, `one.value = "${text}";
         one.dispatchEvent(new Event(one.type === "range" ? "input" : "change"))`);
-      const until = hash => page.until(`location.hash === "${hash}" && ${stage("build")} > 1
-        && !document.querySelector("#stage").hasAttribute("data-stale")`);
+      const until = hash => page.until(`location.hash === "${hash}" && ${canvas("build")} > 1
+        && !document.querySelector("#canvas").hasAttribute("data-stale")`);
       await give("constructor", 5);
       await until("#constructor=5");
       page.write("]=] .. watching.bench.folder .. [=[/shot.lua", ]=] .. ("%q"):format(fewer)
@@ -510,7 +510,7 @@ describe("the page of celspan watch under hands #plain", function()
       await page.press("s"); await page.press("p");
       await page.until(`document.querySelectorAll("[data-row]").length === 3`);
       await page.settle();
-      const at = await of("#stage", `(box => [box.x + box.width / 4, box.y + box.height / 4])(
+      const at = await of("#canvas", `(box => [box.x + box.width / 4, box.y + box.height / 4])(
         one.getBoundingClientRect())`);
       const middle = `(box => [box.x + box.width / 2, box.y + box.height / 2])(
         one.getBoundingClientRect())`;
@@ -518,13 +518,13 @@ describe("the page of celspan watch under hands #plain", function()
       await page.until(`!document.querySelector("#spot").hidden`);
       const spot = await of("#spot", middle);
       await page.press("]");
-      await page.until(`${stage("frame")} === "40"`);
+      await page.until(`${canvas("frame")} === "40"`);
       const heads = await all(".head", "one.getBoundingClientRect().x");
       const ruler = await of("#ruler", `(box => box.x + box.width * 39 / 400)(
         one.getBoundingClientRect())`);
       const play = await of("#play", "one.getBoundingClientRect().x");
       await page.press("End");
-      await page.until(`${stage("frame")} === "400"`);
+      await page.until(`${canvas("frame")} === "400"`);
       const moved = await of("#play", "one.getBoundingClientRect().x") - play;
       await page.press("p");
       return { off: Math.hypot(spot[0] - at[0], spot[1] - at[1]), count: heads.length, moved,

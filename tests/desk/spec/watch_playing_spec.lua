@@ -22,7 +22,7 @@ local function see(script, steps)
   watching.bench:inside "mkdir film"
   watching.bench:write("film/shot.lua", script)
   return watching.see(watching.watch "film/shot.lua", [=[
-    const number = `Number(${stage("frame")})`;
+    const number = `Number(${canvas("frame")})`;
     const isWrong = `!document.querySelector("#error").hidden`;
     const shown = `Number(document.querySelector("#frame").textContent)`;
     const folder = "]=] .. watching.bench.folder .. [=[/film";
@@ -78,7 +78,7 @@ describe("playing in the page of celspan watch #plain", function()
       await page.get(`(() => {
         window.shown = window.ticks = 0;
         new MutationObserver(records => { shown += records.length; }).observe(
-          document.querySelector("#stage"), { attributeFilter: ["data-frame"] });
+          document.querySelector("#canvas"), { attributeFilter: ["data-frame"] });
       })()`);
       await page.press("l");
       await page.until("shown >= 8");
@@ -144,10 +144,10 @@ describe("playing in the page of celspan watch #plain", function()
         save("return nil +");
         await page.until(`${isWrong} && document.querySelector("#error").textContent
           .includes("unexpected symbol")`);
-        const build = await page.get(`Number(${stage("build")})`);
+        const build = await page.get(`Number(${canvas("build")})`);
         save(last);
         await page.until(`document.querySelector("#frames").textContent === "${count}"
-          && !${isWrong} && Number(${stage("build")}) > ${build}
+          && !${isWrong} && Number(${canvas("build")}) > ${build}
           && asked.some(one => one.status === 200 && one.number > 1 && one.build > ${build})`);
         const first = await page.get(number);
         await page.until(`${number} !== ${first}`);

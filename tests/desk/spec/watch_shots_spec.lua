@@ -110,15 +110,15 @@ describe("the page of celspan watch #plain", function()
 
   it("names the shots of what it lists, and asks again in another frame", function()
     local said = watching.see(watch "cut.dissolve(0.5)", [=[
-      await page.until(`${stage("frame")} === "1"`);
-      const spot = async (x, y) => page.get(`(() => { const box = document.querySelector("#stage")
+      await page.until(`${canvas("frame")} === "1"`);
+      const spot = async (x, y) => page.get(`(() => { const box = document.querySelector("#canvas")
         .getBoundingClientRect(); return [box.left + box.width * ${x} / 64,
                                           box.top + box.height * ${y} / 36]; })()`);
       const go = async (frame, list) => {
         await page.press("g");
         await page.get(`document.querySelector("#number").value = "${frame}"`);
         await page.press("Enter");
-        await page.until(`${stage("frame")} === "${frame}"`);
+        await page.until(`${canvas("frame")} === "${frame}"`);
       };
       const items = id => page.get(`[...document.querySelectorAll("#${id} li")]
         .map(one => one.textContent.replace(/ ?shot.lua.*/, ""))`);

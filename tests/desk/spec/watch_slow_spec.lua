@@ -118,20 +118,20 @@ describe("a slow frame", function()
     local said = watching.see(watching.watch(), [=[
       await page.get(`(() => {
         window.seen = [];
-        const { dataset } = document.querySelector("#stage");
+        const { dataset } = document.querySelector("#canvas");
         new MutationObserver(() => {
           const now = dataset.frame + " " + dataset.size;
           if (dataset.size && window.seen.at(-1) !== now) window.seen.push(now);
-        }).observe(document.querySelector("#stage"), { attributes: true });
+        }).observe(document.querySelector("#canvas"), { attributes: true });
       })()`);
-      const sharp = frame => page.until(`${stage("frame")} === "${frame}"
-        && ${stage("size")}.split("x")[0] > 1000`);
+      const sharp = frame => page.until(`${canvas("frame")} === "${frame}"
+        && ${canvas("size")}.split("x")[0] > 1000`);
       await sharp(1);
       await page.press("ArrowRight");
       await sharp(2);
       const first = await page.get("window.seen");
       await page.press("ArrowRight");
-      await page.until(`${stage("frame")} === "3"`);
+      await page.until(`${canvas("frame")} === "3"`);
       await page.press("ArrowRight");
       await page.pause(0.2);
       await page.press("ArrowRight");

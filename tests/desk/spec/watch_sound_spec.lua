@@ -106,7 +106,7 @@ describe("the page of celspan watch with a sound #plain", function()
             start.call(this, when, offset, duration);
           };
         })()`);
-        await page.until(`${stage("frame")} === "1"`);
+        await page.until(`${canvas("frame")} === "1"`);
         await page.press("g");
         await page.get(`document.querySelector("#number").value = "30"`);
         await page.press("Enter");
@@ -116,7 +116,7 @@ describe("the page of celspan watch with a sound #plain", function()
         await page.until(`heard.length === 2`);
         await page.get("heard.length = 0");
         await page.press(" ");
-        await page.until(`Number(${stage("frame")}) > 20`);
+        await page.until(`Number(${canvas("frame")}) > 20`);
         const played = await page.get("heard[0]");
         await page.press("u");
         const before = await page.get("heard.length");
@@ -137,7 +137,7 @@ describe("the page of celspan watch with a sound #plain", function()
 
   it("draws its wave, the marks and the mouths in the timeline", function()
     local said = watching.see(watching.watch(), [=[
-      await page.until(`${stage("frame")} === "1"`);
+      await page.until(`${canvas("frame")} === "1"`);
       await page.press("s");
       await page.until(`document.querySelectorAll("#names li").length === 2`);
       await page.until(`document.querySelector("#timeline").ariaBusy === "false"`);

@@ -453,20 +453,20 @@ describe("the page of celspan watch #plain", function()
 
   it("shows, steps and plays frames, by keys alone", function()
     local said = see(watch(), [=[
-      await page.until(`${stage("frame")} === "1"`);
-      const first = await page.get(`[${stage("size")}, ${stage("crop")},
-        document.querySelector("#stage").width, document.querySelector("#stage").height]`);
+      await page.until(`${canvas("frame")} === "1"`);
+      const first = await page.get(`[${canvas("size")}, ${canvas("crop")},
+        document.querySelector("#canvas").width, document.querySelector("#canvas").height]`);
       await page.press("ArrowRight"); await page.press("ArrowRight"); await page.press("ArrowLeft");
-      await page.until(`${stage("frame")} === "2"`);
+      await page.until(`${canvas("frame")} === "2"`);
       const stepped = await text("frame");
       await page.press(" ");
-      await page.until(`Number(${stage("frame")}) > 12`);
+      await page.until(`Number(${canvas("frame")}) > 12`);
       await page.press(" ");
       const stopped = await text("frame");
       await page.pause(0.3);
       const still = await text("frame");
       await page.press("End");
-      await page.until(`${stage("frame")} === "48"`);
+      await page.until(`${canvas("frame")} === "48"`);
       const foreign = page.requests.filter(url => !url.startsWith("http://127.0.0.1:"));
       return { first, stepped, stopped, still, foreign, hash: await page.get("location.href") };]=])
     local w, h = said.first[1]:match "(%d+)x(%d+)"
@@ -483,18 +483,18 @@ describe("the page of celspan watch #plain", function()
     bench:write("shot.lua", (FILM:gsub('"#ffe0b0"', 'require "colour"')))
     local said = see(watch(), [=[
       const folder = "]=] .. bench.folder .. [=[/";
-      const colour = () => page.get(`[...document.querySelector("#stage").getContext("2d")
+      const colour = () => page.get(`[...document.querySelector("#canvas").getContext("2d")
         .getImageData(0, 0, 1, 1).data].join()`);
-      await page.until(`${stage("frame")} === "1"`);
+      await page.until(`${canvas("frame")} === "1"`);
       await page.press("ArrowRight");
-      await page.until(`${stage("frame")} === "2"`);
-      const colours = [await colour()], old = await page.get(stage("build"));
+      await page.until(`${canvas("frame")} === "2"`);
+      const colours = [await colour()], old = await page.get(canvas("build"));
       page.write(folder + "colour.lua", 'return "#33c"');
-      await page.until(`${stage("build")} !== "${old}"`);
+      await page.until(`${canvas("build")} !== "${old}"`);
       colours.push(await colour());
       page.write(folder + "colour.lua", 'error "no paint"');
       await page.until(`!document.querySelector("#error").hidden`);
-      const error = await text("error"), seen = await page.get(stage("frame"));
+      const error = await text("error"), seen = await page.get(canvas("frame"));
       colours.push(await colour());
       page.write(folder + "colour.lua", 'return 7');
       await page.until(`document.querySelector("#error").textContent.startsWith("shot.lua:4")`);
@@ -502,7 +502,7 @@ describe("the page of celspan watch #plain", function()
       page.write(folder + "colour.lua", 'return "#c3c"');
       await page.until(`document.querySelector("#error").hidden`);
       colours.push(await colour());
-      return { colours, error, seen, refused, last: await page.get(stage("frame")) };]=])
+      return { colours, error, seen, refused, last: await page.get(canvas("frame")) };]=])
     assert.same({ "51,204,51,255", "51,51,204,255", "51,51,204,255", "204,51,204,255" },
       said.colours)
     assert.truthy(said.error:find("colour.lua:1: frame 2: no paint", 1, true), said.error)
@@ -513,20 +513,20 @@ describe("the page of celspan watch #plain", function()
 
   it("zooms to the largest frame, and shows there what a render shows", function()
     local said = see(watch(), [=[
-      await page.until(`${stage("frame")} === "1"`);
-      const box = await page.get(`(() => { const b = document.querySelector("#stage")
+      await page.until(`${canvas("frame")} === "1"`);
+      const box = await page.get(`(() => { const b = document.querySelector("#canvas")
         .getBoundingClientRect(); return [b.left, b.top, b.width, b.height]; })()`);
       const x = box[0] + box[2] * 16 / 64, y = box[1] + box[3] / 2;
       for (let i = 0; i < 60; i++) {
         await page.mouse("mouseWheel", x, y, { deltaX: 0, deltaY: -200 });
       }
-      await page.until(`${stage("size")} === "1048576x589824"`);
+      await page.until(`${canvas("size")} === "1048576x589824"`);
       await page.press("p");
-      await page.until(`${stage("crop")}.split(",")[2] < 1010`);
+      await page.until(`${canvas("crop")}.split(",")[2] < 1010`);
       await page.click(600, 400);
       await page.until(`document.querySelectorAll("#hits li").length > 1`);
-      const picture = await page.get(`document.querySelector("#stage").toDataURL()`);
-      return { picture: picture.split(",")[1], crop: await page.get(stage("crop")),
+      const picture = await page.get(`document.querySelector("#canvas").toDataURL()`);
+      return { picture: picture.split(",")[1], crop: await page.get(canvas("crop")),
                hits: await page.get(`document.querySelector("#hits").innerText`) };]=])
     bench:write("seen.base64", said.picture)
     bench:inside "base64 -d seen.base64 >seen.png"
@@ -539,13 +539,13 @@ describe("the page of celspan watch #plain", function()
 
   it("shows the exposure sheet, and goes where it is clicked", function()
     local said = see(watch(), [=[
-      await page.until(`${stage("frame")} === "1"`);
+      await page.until(`${canvas("frame")} === "1"`);
       await page.press("s");
       await page.until(`document.querySelectorAll("#names li").length === 2`);
       const box = await page.get(`(() => { const b = document.querySelector("#rows")
         .getBoundingClientRect(); return [b.left, b.top, b.width, b.height]; })()`);
       await page.click(box[0] + box[2] * 29.5 / 48, box[1] + 30);
-      await page.until(`${stage("frame")} === "30"`);
+      await page.until(`${canvas("frame")} === "30"`);
       const painted = await page.get(`[8, 30].map(y => document.querySelector("#rows")
         .getContext("2d").getImageData(4, y * devicePixelRatio, 1, 1).data[3])`);
       const left = id => page.get(`document.querySelector("${id}").getBoundingClientRect().x`);
@@ -559,16 +559,16 @@ describe("the page of celspan watch #plain", function()
 
   it("shows the frames before and after, in red and green", function()
     local said = see(watch(), [=[
-      await page.until(`${stage("frame")} === "1"`);
+      await page.until(`${canvas("frame")} === "1"`);
       for (let i = 0; i < 4; i++) await page.press("ArrowRight");
-      await page.until(`${stage("frame")} === "5"`);
-      const colour = x => page.get(`(() => { const stage = document.querySelector("#stage");
-        return [...stage.getContext("2d").getImageData(Math.round(${x} / 64 * stage.width),
-          Math.round(stage.height / 2), 1, 1).data]; })()`);
+      await page.until(`${canvas("frame")} === "5"`);
+      const colour = x => page.get(`(() => { const canvas = document.querySelector("#canvas");
+        return [...canvas.getContext("2d").getImageData(Math.round(${x} / 64 * canvas.width),
+          Math.round(canvas.height / 2), 1, 1).data]; })()`);
       const plain = await colour(8.4);
       await page.press("n");
       await page.until(`document.querySelector("#onion").textContent === "Onion skin 1"
-        && !document.querySelector("#stage").hasAttribute("data-stale")`);
+        && !document.querySelector("#canvas").hasAttribute("data-stale")`);
       // The ball is from 8 to 20, and before and after that a unit to the left and to the right.
       return { plain, before: await colour(7.4), after: await colour(20.5),
                ground: await colour(40), ball: await colour(14) };]=])
@@ -583,16 +583,16 @@ describe("the page of celspan watch #plain", function()
   it("compares a save with the one before, by a wipe or their difference", function()
     local said = see(watch(), [=[
       const folder = "]=] .. bench.folder .. [=[/", fs = require("fs");
-      const colours = () => page.get(`[0.1, 0.9].map(x => { const stage =
-        document.querySelector("#stage"); return [...stage.getContext("2d")
-        .getImageData(Math.round(x * stage.width), 2, 1, 1).data].join(); })`);
+      const colours = () => page.get(`[0.1, 0.9].map(x => { const canvas =
+        document.querySelector("#canvas"); return [...canvas.getContext("2d")
+        .getImageData(Math.round(x * canvas.width), 2, 1, 1).data].join(); })`);
       // On a slow machine a picture of a quarter of the size comes first.
-      const isFine = `(one => 2 * one.width > one.clientWidth)(document.querySelector("#stage"))`;
-      await page.until(`${stage("frame")} === "1" && ${isFine}`);
-      const old = await page.get(stage("build"));
+      const isFine = `(one => 2 * one.width > one.clientWidth)(document.querySelector("#canvas"))`;
+      await page.until(`${canvas("frame")} === "1" && ${isFine}`);
+      const old = await page.get(canvas("build"));
       const script = fs.readFileSync(folder + "shot.lua", "utf8");
       page.write(folder + "shot.lua", script.replace("#ffe0b0", "#ffd0b0"));
-      await page.until(`${stage("build")} !== "${old}" && ${isFine}`);
+      await page.until(`${canvas("build")} !== "${old}" && ${isFine}`);
       const seen = [];
       for (const key of ["w", "d", "d"]) {
         await page.press(key);
@@ -610,15 +610,15 @@ describe("the page of celspan watch #plain", function()
                                      off = false }
       %0]], 1):gsub('"#ffe0b0"', "p.tint"):gsub("radius = 6", "radius = p.size")))
     local said = see(watch "shot.lua --set size=5", [=[
-      const colour = () => page.get(`[...document.querySelector("#stage").getContext("2d")
+      const colour = () => page.get(`[...document.querySelector("#canvas").getContext("2d")
         .getImageData(0, 0, 1, 1).data].join()`);
       const put = async (kind, value) => {
-        const old = await page.get(stage("build"));
+        const old = await page.get(canvas("build"));
         await page.get(`(() => { const input = document.querySelector("#form input[type=${kind}]");
           input.value = "${value}"; input.dispatchEvent(new Event("input")); })()`);
-        await page.until(`${stage("build")} !== "${old}"`);
+        await page.until(`${canvas("build")} !== "${old}"`);
       };
-      await page.until(`${stage("frame")} === "1"`);
+      await page.until(`${canvas("frame")} === "1"`);
       await page.press("v");
       const first = await page.get(`[...document.querySelectorAll("#form input, #form select")]
         .map(one => one.type === "checkbox" ? String(one.checked) : one.value).join("|")`);
@@ -658,9 +658,9 @@ describe("the page of celspan watch #plain", function()
     assert.equal("600 700\n", system.output(("stat -c %%a '%s' '%s' | paste -sd ' '")
       :format(path, path:match "^(.*)/")))
     local said = see("file://" .. path, [=[
-      await page.until(`Number(${stage("frame")}) > 3`);
+      await page.until(`Number(${canvas("frame")}) > 3`);
       await page.load();
-      await page.until(`Number(${stage("frame")}) > 3`);
+      await page.until(`Number(${canvas("frame")}) > 3`);
       return page.get(`getComputedStyle(document.querySelector("header")).display`);]=])
     assert.equal("none", said)
     watching.stop()
@@ -669,12 +669,12 @@ describe("the page of celspan watch #plain", function()
 
   it("keeps its token for itself: pages are loaded again, and opened by a bookmark", function()
     local said = see(watch(), [=[
-      await page.until(`${stage("frame")} === "1"`);
+      await page.until(`${canvas("frame")} === "1"`);
       const cookie = await page.get("document.cookie");
       const addresses = [];
       for (const address of ["", `${await page.get("location.origin")}/`]) {
         await page.load(address);
-        await page.until(`${stage("frame")} === "1"`);
+        await page.until(`${canvas("frame")} === "1"`);
         addresses.push(await page.get("location.pathname + location.search"));
       }
       const own = await page.get("location.origin");

@@ -192,7 +192,7 @@ describe("the page of celspan watch as a studio #plain", function()
 
   it("is small, and speaks to nobody else", function()
     local said = watching.see(watching.watch(), [=[
-      await page.until(`${stage("frame")} === "1"`);
+      await page.until(`${canvas("frame")} === "1"`);
       const names = page.requests.map(url => new URL(url)).filter(url => /[.](js|css)$/
         .test(url.pathname)).map(url => url.href);
       let bytes = 0;
@@ -211,7 +211,7 @@ describe("the page of celspan watch as a studio #plain", function()
 
   it("has a timeline: shots, marks, timecodes, and keys between them", function()
     local said = watching.see(watching.watch(), [=[
-      await page.until(`${stage("frame")} === "1"`);
+      await page.until(`${canvas("frame")} === "1"`);
       const shots = await page.get(`[...document.querySelectorAll("[data-shot]")].map(one =>
         [one.dataset.shot, one.dataset.from, one.dataset.to].join(" "))`);
       const marks = await page.get(`[...document.querySelectorAll("[data-mark]")].map(one =>
@@ -227,7 +227,7 @@ describe("the page of celspan watch as a studio #plain", function()
       await page.press("g");
       await page.get(`document.querySelector("#number").value = "2:12"`);
       await page.press("Enter");
-      await page.until(`${stage("frame")} === "61"`);
+      await page.until(`${canvas("frame")} === "61"`);
       await page.press("s");
       const folds = `[...document.querySelectorAll("#names [aria-expanded]")]`;
       await page.until(`${folds}.length === 3`);
@@ -245,13 +245,13 @@ describe("the page of celspan watch as a studio #plain", function()
 
   it("has objects, values with handles, and a form that renders", function()
     local said = watching.see(watching.watch "--strict shot.lua -- 'a b'", [=[
-      await page.until(`${stage("frame")} === "1"`);
+      await page.until(`${canvas("frame")} === "1"`);
       await page.press("q");
       await page.until(`document.querySelectorAll("[data-object]").length === 3`);
       const paths = await page.get(`[...document.querySelectorAll("[data-object]")]
         .map(one => one.dataset.object)`);
       await page.settle();
-      const box = await page.get(`(() => { const box = document.querySelector("#stage")
+      const box = await page.get(`(() => { const box = document.querySelector("#canvas")
         .getBoundingClientRect(); return [box.left + box.width * 24 / 64, box.top + box.height / 2];
       })()`);
       await page.mouse("mouseMoved", ...box);
@@ -263,14 +263,14 @@ describe("the page of celspan watch as a studio #plain", function()
       const names = await page.get(`[...document.querySelectorAll("#values #form [name]")]
         .map(one => one.name)`);
       const group = await page.get(`document.querySelector("#form fieldset").textContent`);
-      const old = await page.get(stage("build"));
+      const old = await page.get(canvas("build"));
       const isStale = await page.get(`(sun => {
         sun.focus();
         sun.dispatchEvent(new KeyboardEvent("keydown", { key: "ArrowRight", bubbles: true }));
-        return "stale" in document.querySelector("#stage").dataset;
+        return "stale" in document.querySelector("#canvas").dataset;
       })(document.querySelector("[data-point=sun]"))`);
-      await page.until(`${stage("build")} !== "${old}"`);
-      await page.until(`!("stale" in document.querySelector("#stage").dataset)`);
+      await page.until(`${canvas("build")} !== "${old}"`);
+      await page.until(`!("stale" in document.querySelector("#canvas").dataset)`);
       const command = await page.get(`document.querySelector("#command").value`);
       await page.get(`document.querySelector("#render").click()`);
       await page.get(`(() => { const { elements } = document.querySelector("#render-form");

@@ -124,7 +124,7 @@ describe("the form of values #plain", function()
   it("marks what is not as in the script, gives it back, and refuses at the field", function()
     local address = watching.watch "--set size=3 shot.lua"
     local said = watching.see(address, [=[
-      await page.until(`${stage("frame")} === "1"`);
+      await page.until(`${canvas("frame")} === "1"`);
       await page.press("v");
       const field = name => `document.querySelector("#form").elements.namedItem("${name}")`;
       const type = (name, value) => page.get(`(() => { const one = ${field(name)};
@@ -145,12 +145,12 @@ describe("the form of values #plain", function()
       await page.until(`${wrong("lamp")}`);
       const fault = await page.get(wrong("lamp"));
       const isMarked = await page.get(`${field("lamp")}.ariaInvalid === "true"`);
-      await page.until(`!document.querySelector("#stage").hasAttribute("data-stale")`);
+      await page.until(`!document.querySelector("#canvas").hasAttribute("data-stale")`);
       const error = await page.get(`document.querySelector("#error").hidden`);
       await page.until(`!document.querySelector("#command").value.includes("left")`);
       const command = await value("command");
       await page.load(server());
-      await page.until(`${stage("frame")} === "1"`);
+      await page.until(`${canvas("frame")} === "1"`);
       const again = await hash();
       await page.press("v");
       await page.until(`document.querySelectorAll("#form .back:not([hidden])").length === 2`);
@@ -186,7 +186,7 @@ return celspan.film { size = { 64, 36 }, frames = 9, frame = function()
   end }
 ]])
     local said = watching.see(watching.watch(), [=[
-      await page.until(`${stage("frame")} === "1"`);
+      await page.until(`${canvas("frame")} === "1"`);
       await page.press("v");
       const command = `document.querySelector("#command").value`;
       const act = (name, what) => page.get(`document.querySelector("#form [name=${name}]")${what}`);
@@ -201,7 +201,7 @@ return celspan.film { size = { 64, 36 }, frames = 9, frame = function()
       await page.until(`!${command}.includes("replaceChildren")`);
       await page.get(`document.querySelector("#reset-values").click()`);
       await page.until(`!${command}.includes("--set")
-        && !document.querySelector("#stage").hasAttribute("data-stale")`);
+        && !document.querySelector("#canvas").hasAttribute("data-stale")`);
       return { tags: await page.get(`document.querySelectorAll("#form b, #form i").length`),
         names: await page.get(`[...document.querySelectorAll("#form [name]")]
           .map(one => one.name)`) };]=])
@@ -211,7 +211,7 @@ return celspan.film { size = { 64, 36 }, frames = 9, frame = function()
 
   it("has handles that can be hidden, and that leave clicks to the inspector", function()
     local said = watching.see(watching.watch(), [=[
-      await page.until(`${stage("frame")} === "1"`);
+      await page.until(`${canvas("frame")} === "1"`);
       const handle = `document.querySelector("[data-point=lamp]")`;
       const isHidden = () => page.get(`${handle}.hidden`);
       const first = await isHidden();
@@ -265,7 +265,7 @@ return require "celspan.cut" { { film = shot "sun" }, require "celspan.cut".diss
       const pale = async number => {
         await page.get(`(one => { one.value = ${number}; one.dispatchEvent(new Event("input")); })(
           document.querySelector("#scrub"))`);
-        await page.until(`${stage("frame")} === "${number}"`);
+        await page.until(`${canvas("frame")} === "${number}"`);
         return page.get(`[...document.querySelectorAll(".handle.idle")]
           .map(one => one.dataset.point).sort().join()`);
       };

@@ -134,7 +134,7 @@ end }
   end)
 
   it("has parts of drawings, with their lines in the drawing", function()
-    if not present.art() then return pending "celspan was built without the art module" end
+    if not present.type() then return pending "celspan was built without the type module" end
     watching.bench:write("nell.svg", [[
 <svg xmlns="http://www.w3.org/2000/svg" width="64" height="36">
   <rect width="64" height="36" fill="#ccc"/>
@@ -252,9 +252,9 @@ describe("the page of celspan watch over its picture #plain", function()
       return canvas.hidden ? [] : [...canvas.getContext("2d").getImageData(
         Math.floor(${x} * canvas.width), Math.floor(${y} * canvas.height), 1, 1).data]; })()`);
     const click = what => page.get(`document.querySelector('${what}').click()`);
-    await page.until(`${stage("frame")} === "1"`);
+    await page.until(`${canvas("frame")} === "1"`);
     await page.press("ArrowRight"); await page.press("ArrowRight");
-    await page.until(`${stage("frame")} === "3"`);
+    await page.until(`${canvas("frame")} === "3"`);
   ]]
 
   it("has spans, and an outline of what a line made, which is also a strip over the sheet",
@@ -294,17 +294,17 @@ describe("the page of celspan watch over its picture #plain", function()
 
   it("shows cels alone, hidden, without light and in focus", function()
     local said = watching.see(watching.watch(), COLOUR .. [=[
-      const wait = async old => page.until(`[...document.querySelector("#stage").getContext("2d")
-        .getImageData(document.querySelector("#stage").width >> 1,
-          document.querySelector("#stage").height >> 1, 1, 1).data].join() !== "${old}"`);
+      const wait = async old => page.until(`[...document.querySelector("#canvas").getContext("2d")
+        .getImageData(document.querySelector("#canvas").width >> 1,
+          document.querySelector("#canvas").height >> 1, 1, 1).data].join() !== "${old}"`);
       await page.press("s");
       await page.until(`document.querySelectorAll("#names button").length === 15`);
       const seen = [];
       const press = async what => {
-        const old = (await colour("stage", 0.5, 0.5)).join();
+        const old = (await colour("canvas", 0.5, 0.5)).join();
         await click(`#names [aria-label="${what}"]`);
         await wait(old);
-        seen.push((await colour("stage", 0.5, 0.5)).join());
+        seen.push((await colour("canvas", 0.5, 0.5)).join());
       };
       await press("Unlit: ball");
       await press("Hide: ball");
@@ -321,7 +321,7 @@ describe("the page of celspan watch over its picture #plain", function()
   it("shows the drawings around one as its camera sees them", function()
     watching.bench:write("shot.lua", PAN)
     local said = watching.see(watching.watch(), COLOUR .. [=[
-      const pixels = () => page.get(`(() => { const canvas = document.querySelector("#stage");
+      const pixels = () => page.get(`(() => { const canvas = document.querySelector("#canvas");
         return [...canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data]
           .join(); })()`);
       // The picture, when it has stayed the same for a while.
@@ -333,7 +333,7 @@ describe("the page of celspan watch over its picture #plain", function()
           await page.pause(0.5);
         }
       };
-      await page.until(`${stage("size")}.split("x")[0] > 1000`);
+      await page.until(`${canvas("size")}.split("x")[0] > 1000`);
       const plain = await settled();
       await page.press("n");
       while (await pixels() === plain) await page.pause(0.1);
@@ -343,11 +343,11 @@ describe("the page of celspan watch over its picture #plain", function()
         shown += (before[i] !== after[i] || before[i + 1] !== after[i + 1]) / after.length * 4;
       shown *= 64 * 36;
       await page.press("ArrowRight");
-      await page.until(`${stage("frame")} === "4"`);
+      await page.until(`${canvas("frame")} === "4"`);
       await page.pause(0.7);
       await settled();
       // The ball of frame 5, in green, as large as the camera of frame 4 shows it.
-      const changed = await page.get(`(() => { const canvas = document.querySelector("#stage");
+      const changed = await page.get(`(() => { const canvas = document.querySelector("#canvas");
         const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
         let count = 0;
         for (let i = 0; i < data.length; i += 4) count += data[i + 1] - data[i + 2] > 20;
@@ -361,20 +361,20 @@ describe("the page of celspan watch over its picture #plain", function()
   it("compares any frame with one that is held", function()
     local said = watching.see(watching.watch(), COLOUR .. [=[
       const middle = (channel, value) => page.until(`(() => {
-        const canvas = document.querySelector("#stage");
+        const canvas = document.querySelector("#canvas");
         return canvas.getContext("2d").getImageData(canvas.width >> 1, canvas.height >> 1, 1, 1)
           .data[${channel}] === ${value}; })()`);
       await page.press("h");
       await page.press("d");
       await middle(1, 0);
-      const same = await colour("stage", 0.5, 0.5);
+      const same = await colour("canvas", 0.5, 0.5);
       await page.press("ArrowLeft");
-      await page.until(`${stage("frame")} === "2"`);
+      await page.until(`${canvas("frame")} === "2"`);
       // The ball of frame 3 is green there, and the ground of frame 2 is not.
       await middle(0, 255);
-      const other = await colour("stage", 0.5, 0.5), beside = await colour("stage", 0.05, 0.05);
+      const other = await colour("canvas", 0.5, 0.5), beside = await colour("canvas", 0.05, 0.05);
       await page.press("w");
-      const left = await colour("stage", 0.45, 0.5), right = await colour("stage", 0.55, 0.5);
+      const left = await colour("canvas", 0.45, 0.5), right = await colour("canvas", 0.55, 0.5);
       return { same, other, beside, left, right,
                text: await page.get(`document.querySelector("#hold").textContent`) };]=])
     assert.same({ 0, 0, 0, 255 }, said.same)
@@ -419,7 +419,7 @@ describe("the page of celspan watch over its picture #plain", function()
         .map(one => one.textContent)`);
       const slowest = await page.get(`document.querySelector("#slowest button").textContent`);
       await click("#slowest button");
-      await page.until(`"frame " + ${stage("frame")} === "${slowest}"`);
+      await page.until(`"frame " + ${canvas("frame")} === "${slowest}"`);
       return names;]=])
     assert.same({ "the frame", "ground", "ball" }, said)
   end)

@@ -8,7 +8,7 @@ local prng = require "tests.support.prng"
 local raised = require "tests.support.raised"
 
 local FONT = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf" -- has a minus sign, and "%"
-local with_art = present.art() and io.open(FONT) and it or pending
+local with_art = present.type() and io.open(FONT) and it or pending
 
 --- A chart in 100 x 100 units without axes.
 local function plain(kind, data, changes)

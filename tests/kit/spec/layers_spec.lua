@@ -101,9 +101,9 @@ local function layer_of(fields)
   return layer
 end
 
-if not present.art() then
+if not present.type() then
   describe("layers", function()
-    it("are read through the art module", function() pending "it was not built" end)
+    it("are read through the type module", function() pending "it was not built" end)
   end)
   return
 end

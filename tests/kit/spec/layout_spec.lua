@@ -6,7 +6,7 @@ local present = require "tests.support.present"
 local raised = require "tests.support.raised"
 local typewriter = require "celspan.typewriter"
 
-local with_art = present.art and it or pending
+local with_art = present.type and it or pending
 local FONT = "../../../scripts/type/block.ttf" -- beside this file
 
 local function rect(x, y, w, h) return celspan.rect { x, y, w, h } end

@@ -6,7 +6,7 @@ require "celspan.spec"
 local is_there, film = pcall(dofile, "scripts/film.lua")
 if not is_there then
   -- Built without the libraries for type and XML, celspan reads no drawings and paintings.
-  pending("the second film, without celspan-art.so: " .. tostring(film))
+  pending("the second film, without celspan-type.so: " .. tostring(film))
   return
 end
 

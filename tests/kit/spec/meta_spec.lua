@@ -2,7 +2,7 @@
 -- others.
 local celspan = require "celspan"
 local own = require "tests.support.own"
-local core, manual = own "celspan.core", own "celspan.manual"
+local native, manual = own "celspan.native", own "celspan.manual"
 local present = require "tests.support.present"
 local system = require "tests.support.system"
 local workbench = require "tests.support.workbench"
@@ -70,7 +70,7 @@ local samples = {
 }
 
 -- Built without the libraries for type, there is no text to look at.
-samples.text = present.art() and { "x", font = "../../../scripts/type/block.ttf" } or nil
+samples.text = present.type() and { "x", font = "../../../scripts/type/block.ttf" } or nil
 
 --- The fields that a constructor says it has, when it is given one that cannot be.
 local function fields_of(constructor)
@@ -104,7 +104,7 @@ describe("the annotations", function()
       local is_value = name ~= "render" and name ~= "pixels" and name ~= "spans"
         and name ~= "glyphs"
       if is_value and fields_of(name)() then
-        assert.is_truthy(samples[name] or name == "text" and not present.art(), name)
+        assert.is_truthy(samples[name] or name == "text" and not present.type(), name)
       end
     end
   end)
@@ -146,7 +146,7 @@ end
 
 describe("the range of a field", function()
   for constructor in pairs(samples) do
-    for _, field in ipairs(core.nouns()[constructor] or {}) do
+    for _, field in ipairs(native.nouns()[constructor] or {}) do
       local step = field.type == "integer" and 1 or 1e-3
       local below = field.least and field.least - step
       local beyond = { field.above, below, field.most and field.most * 2 }
@@ -218,7 +218,7 @@ describe("a module in Lua", function()
   local is_public = {}
   for _, name in ipairs(manual.MODULES) do is_public[name] = true end
   local names = system.lines "find lua/celspan -name '*.lua' | sed 's|.*/||; s|[.]lua$||'"
-  names[#names + 1] = "core"
+  names[#names + 1] = "native"
 
   it("is for scripts if the manual has it, else refused to them, though celspan uses it", function()
     own "celspan.puppet_sheet"

@@ -14,7 +14,7 @@ before_each(function()
 end)
 after_each(function() bench:remove() end)
 
-local opened = { PICTURE = "scripts/pictures/canal.png", ART = "scripts/paintings/valley.ora" }
+local opened = { PICTURE = "scripts/pictures/canal.png", TYPE = "scripts/paintings/valley.ora" }
 
 --- Opens a picture, a painting that is an archive, or one with a colour profile, with the module in
 --- a file; returns the message.
@@ -36,8 +36,8 @@ local function assert_said(kind, file, parts, before)
   assert.are.equal(#words + 1, at, words)
 end
 
-local colour = present.colour() and present.art() and "COLOUR" or nil
-for _, kind in ipairs { "PICTURE", "ART", colour } do
+local colour = present.colour() and present.type() and "COLOUR" or nil
+for _, kind in ipairs { "PICTURE", "TYPE", colour } do
   local name = ("celspan-%s.so"):format(kind:lower())
   local needed = ("needs the module %s, "):format(name)
   local advised = kind == "PICTURE" and "OpenImageIO" or "celspan"
@@ -63,8 +63,8 @@ for _, kind in ipairs { "PICTURE", "ART", colour } do
     end)
 
     it("must be installed, or another named, when it is another file", function()
-      local other = kind == "ART" and "/tests/hostile_module.so"
-        or "/src/kit/plugins/type/celspan-art.so"
+      local other = kind == "TYPE" and "/tests/hostile_module.so"
+        or "/src/kit/plugins/type/celspan-type.so"
       local path = workbench.build .. other
       local file = io.open(path)
       if not file then return pending(path .. " is not built") end

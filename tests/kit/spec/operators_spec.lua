@@ -1,6 +1,6 @@
 -- Path operators against closed forms, and what they refuse.
 local celspan = require "celspan"
-local core = require "tests.support.own" "celspan.core"
+local native = require "tests.support.own" "celspan.native"
 local json = require "celspan.json"
 local raised = require "tests.support.raised"
 
@@ -14,7 +14,7 @@ local function all_close(wanted, got)
 end
 
 --- The contours of an object that is one outline, as cubics.
-local function contours(object) return core.anatomy(object).contours end
+local function contours(object) return native.anatomy(object).contours end
 
 --- The joints of the only contour.
 local function joints(object)
@@ -113,7 +113,7 @@ describe("a trim", function()
       celspan.stroke { d = "M0 9H10", width = 2 }:translate(5, 0) }
     local function lengths(...)
       local list = {}
-      for i, node in ipairs(core.anatomy(celspan.trim(both, ...))) do
+      for i, node in ipairs(native.anatomy(celspan.trim(both, ...))) do
         list[i] = node.contours and node.contours[1] and length(node.contours[1]) or 0
       end
       return list
@@ -216,7 +216,7 @@ describe("a twist", function()
   it("turns by its angle at the centre, and not at all at the farthest corner", function()
     local cross = celspan.union { rect(0, 0, 100, 100),
       celspan.stroke { d = "M50 50L90 50", width = 1 } }
-    local nodes = core.anatomy(celspan.twist(cross, 90))
+    local nodes = native.anatomy(celspan.twist(cross, 90))
     local line = nodes[2].contours[1]
     local angle = pi / 2 * (1 - 40 / math.sqrt(5000))
     close(50, line[1], 1e-9)
@@ -405,7 +405,7 @@ describe("a merge", function()
     assert.same({ true, false, false }, at "subtract")
     assert.same({ false, true, false }, at "intersect")
     assert.same({ true, false, true }, at "exclude")
-    assert.equal("outline", core.anatomy(celspan.merge { circle(9), rect(0, 0, 9, 9) }).kind)
+    assert.equal("outline", native.anatomy(celspan.merge { circle(9), rect(0, 0, 9, 9) }).kind)
     assert.is_nil(celspan.merge({}):bounds())
   end)
 end)
@@ -509,7 +509,7 @@ describe("operators", function()
       drawing = celspan.twist(celspan.zigzag(drawing, { size = 1, ridges = 1 }), 5)
     end
     assert.is_truthy(drawing:bounds())
-    assert.equal("word", core.anatomy(drawing)[1].name)
+    assert.equal("word", native.anatomy(drawing)[1].name)
   end)
 
   it("refuse wrong arguments", function()

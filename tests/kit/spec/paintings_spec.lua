@@ -57,7 +57,7 @@ local function psd(fields, document)
   return paintings.psd(given)
 end
 
-local it_reads_archives = present.art() and it or pending
+local it_reads_archives = present.type() and it or pending
 
 teardown(function() bench:remove() end)
 

@@ -62,7 +62,7 @@ local function text(content, attributes)
   return ('<text x="20" y="50" font-size="20" %s>%s</text>'):format(attributes or "", content)
 end
 
-local it = present.art() and it or pending
+local it = present.type() and it or pending
 
 teardown(function() bench:remove() end)
 

@@ -58,7 +58,7 @@ local function encode(light)
   return 255 * (light <= 0.0031308 and 12.92 * light or 1.055 * light ^ (1 / 2.4) - 0.055)
 end
 
-local it = present.art() and it or pending
+local it = present.type() and it or pending
 
 teardown(function() bench:remove() end)
 

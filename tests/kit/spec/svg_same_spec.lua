@@ -76,7 +76,7 @@ local function refused(cases)
   end
 end
 
-local it = present.art() and it or pending
+local it = present.type() and it or pending
 
 teardown(function() bench:remove() end)
 

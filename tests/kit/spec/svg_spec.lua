@@ -45,7 +45,7 @@ end
 
 local function in_svg(content) return HEAD .. ">\n" .. content .. "</svg>" end
 
-local it = present.art() and it or pending
+local it = present.type() and it or pending
 
 teardown(function() bench:remove() end)
 

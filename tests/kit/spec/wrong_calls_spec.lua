@@ -194,7 +194,7 @@ describe("wrong calls", function()
         celspan.text { "A", font = "a.ttf", variations = { wght = "bold" } }
       end, "wght must be a number, got string" },
     }
-    if not present.art() then return pending "no fonts are read" end
+    if not present.type() then return pending "no fonts are read" end
     local many = {}
     for i = 1, 66 do many[("f%03d"):format(i)] = true end
     check { -- in the order of their names, whatever that of the table is

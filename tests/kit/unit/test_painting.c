@@ -158,14 +158,14 @@ static void check_failure(const char *path) {
 
 #define VALLEY TEST_ROOT "/scripts/paintings/valley.ora"
 
-/* Without the art module there is no XML. */
-static bool has_art(celspan_context *context) {
+/* Without the type module there is no XML. */
+static bool has_type(celspan_context *context) {
   celspan_painting *painting = NULL;
   if (celspan_painting_read(context, VALLEY, &painting) == CELSPAN_OK) {
     celspan_painting_unref(painting);
     return true;
   }
-  CHECK(strstr(celspan_context_error(context), "celspan-art.so"));
+  CHECK(strstr(celspan_context_error(context), "celspan-type.so"));
   check_skip(celspan_context_error(context));
   return false;
 }
@@ -350,7 +350,7 @@ static void check_rows(const char *path, bool is_for_good) {
 static void check_archives(void) {
   celspan_context *context = NULL;
   CHECK(celspan_context_create(NULL, &context) == CELSPAN_OK);
-  if (has_art(context)) {
+  if (has_type(context)) {
     check_allocations(VALLEY, false);
     check_allocations(VALLEY, true);
   }

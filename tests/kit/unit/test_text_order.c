@@ -7,7 +7,7 @@
 
 #include "celspan/text.h"
 #include "readers/text/runs.h"
-#include "readers/xml/artwork.h"
+#include "readers/type/type_module.h"
 #include "tests/support/check.h"
 
 #define FOLDER "/usr/share/unicode/"
@@ -120,9 +120,9 @@ static void check_nothing(void) {
 
 int main(void) {
   celspan_context *context;
-  const cs_art_module *module;
+  const cs_type_module *module;
   if (!CHECK(celspan_context_create(NULL, &context) == CELSPAN_OK) ||
-      !CHECK(cs_artwork_module(context, "a test", &module) == CELSPAN_OK))
+      !CHECK(cs_type_module_load(context, "a test", &module) == CELSPAN_OK))
     return check_done();
   type = module->type;
   check_nothing();

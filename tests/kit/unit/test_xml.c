@@ -1,10 +1,10 @@
-/* XML through the art module: what is read, what is refused and where.
+/* XML through the type module: what is read, what is refused and where.
  */
-#include "readers/xml/xml.h"
+#include "readers/type/xml.h"
 
 #include <stdlib.h>
 
-#include "readers/xml/artwork.h"
+#include "readers/type/type_module.h"
 #include "tests/support/check.h"
 
 static celspan_context *context;
@@ -188,14 +188,14 @@ static void a_missing_module_is_reported(void) {
   celspan_context *other;
   if (!CHECK(celspan_context_create(NULL, &other) == CELSPAN_OK))
     return;
-  setenv("CELSPAN_ART_MODULE", "/nowhere/art.so", 1);
-  const cs_art_module *module;
-  CHECK(cs_artwork_module(other, "reading SVG", &module) == CELSPAN_INPUT);
+  setenv("CELSPAN_TYPE_MODULE", "/nowhere/type.so", 1);
+  const cs_type_module *module;
+  CHECK(cs_type_module_load(other, "reading SVG", &module) == CELSPAN_INPUT);
   CHECK(strstr(celspan_context_error(other),
-               "reading SVG needs the module celspan-art.so, which was not found at "
-               "/nowhere/art.so"));
-  unsetenv("CELSPAN_ART_MODULE");
-  CHECK(cs_artwork_module(other, "reading SVG", &module) == CELSPAN_OK);
+               "reading SVG needs the module celspan-type.so, which was not found at "
+               "/nowhere/type.so"));
+  unsetenv("CELSPAN_TYPE_MODULE");
+  CHECK(cs_type_module_load(other, "reading SVG", &module) == CELSPAN_OK);
   celspan_context_destroy(other);
 }
 

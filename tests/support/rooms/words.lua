@@ -60,6 +60,10 @@ words.list = {
   { word = "crossing", means = "how crossing a boundary changes a winding number",
     places = { "engine/sweep/", "engine/compose/", "engine/area/", "model/geometry/bezier",
                "model/scene/inside" } },
+  { word = "stage", means = "a film that is watched, in the process that draws it",
+    places = { "program/" } },
+  { word = "core", means = "the house that draws, as code of another house sees it",
+    places = { "lua/bind/host" } },
   -- words that have no meaning here
   { word = "look", say = "side, term, change or cancelled" },
   { word = "reach", say = "extent, radius, advance or close" },

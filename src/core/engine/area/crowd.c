@@ -258,7 +258,7 @@ static celspan_status enter(drawing *d, int32_t p) {
 typedef struct fold {
   cs_crowd_room *room;
   const cs_crowd_lattice *lattice;
-  int channels; /* that transmit different shares: 1 or 3 */
+  int channels; /* how many transmit different shares: 1 or 3 */
   cs_v4 light, whole;
   cs_v4 mean; /* the mean of `through` */
 } fold;

@@ -45,7 +45,7 @@ cs_crowd_cover CS_WIDE(cs_crowd_find)(const cs_crowd_lattice *lattice, const cs_
   return (cs_crowd_cover){count, low, high};
 }
 
-#define REGISTERS (CS_CROWD_SUMS / CS_WIDE_LANES) /* that hold the partial sums */
+#define REGISTERS (CS_CROWD_SUMS / CS_WIDE_LANES) /* registers that hold the partial sums */
 
 /* The sum of the partial sums, in an order that does not depend on the registers. */
 static inline float total_of(const cs_wide *sums) {

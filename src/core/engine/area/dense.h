@@ -9,7 +9,7 @@
  *   y1  +--------+--------+        Each pixel becomes one flat cell, so later steps do not
  *    left   flat    flat    right  grow with the number of boundaries.
  *
- * The cost is that of sorting: a boundary costs one sort per sub-row, a pixel at most 256 cells in
+ * The cost is sorting: a boundary costs one sort per sub-row, a pixel at most 256 cells in
  * each. The mean over the sub-rows of a pixel is within 1/255 (root of the mean square, of the
  * brightest light) of the exact one; that of an interval which is not dense stays exact.
  *
@@ -37,9 +37,9 @@ typedef struct cs_dense_crossing {
 typedef struct cs_dense {
   cs_dense_place *places;       /* the places of several sub-rows, room for all members each */
   cs_dense_place *spare;        /* room for all members */
-  cs_dense_crossing *crossings; /* by member */
+  cs_dense_crossing *crossings; /* one for each member */
   size_t place_capacity, spare_capacity, crossing_capacity;
-  cs_sum4 *sums; /* by pixel of the interval */
+  cs_sum4 *sums; /* one for each pixel of the interval */
   size_t sum_capacity;
 } cs_dense;
 

@@ -30,7 +30,7 @@ typedef struct cs_interval {
   size_t low, high;
   size_t last_low;  /* the greatest `low` of all intervals that were merged into this one */
   cs_extent events; /* the events of the boundaries that begin or end in the interval */
-  cs_extent extent; /* of the interval's boundaries in the row, including those that begin there */
+  cs_extent extent; /* around the interval's boundaries in the row and those that begin there */
   bool is_crowd;    /* the interval is drawn without its cells (crowd.h) */
 } cs_interval;
 
@@ -45,7 +45,7 @@ typedef struct cs_interval_event {
 
 /* The interval in which something begins. */
 typedef struct cs_interval_begin {
-  size_t low; /* of the interval, before it was merged with others */
+  size_t low; /* the lowest boundary of the interval, before it was merged with others */
   size_t begin;
 } cs_interval_begin;
 
@@ -56,9 +56,9 @@ typedef struct cs_intervals {
   const cs_active *active;
   const cs_edges *edges;      /* the edges of the active boundaries */
   double y0, y1;              /* the row, or a slab of it */
-  cs_member *procedure_edges; /* of scan-line primitives on this row */
+  cs_member *procedure_edges; /* edges of scan-line primitives on this row */
   size_t procedure_edge_count;
-  cs_extent procedures; /* of them */
+  cs_extent procedures; /* the extent of these edges */
   /* found */
   /* from left to right; groups come first while intervals are being searched for */
   cs_interval *intervals;

@@ -10,7 +10,7 @@ typedef struct cs_row_tools {
   cs_composer *composer;
   cs_painter *painter; /* the painter of the composer's cells */
   cs_active *active;   /* boundaries at the row's height, in order */
-  cs_cells *cells;     /* between them */
+  cs_cells *cells;     /* the cells between boundaries */
   cs_procedures *procedures;
   cs_arena *arena; /* the arena of the current row */
   int32_t width;   /* the width of the row, pixels */

@@ -60,7 +60,7 @@ typedef struct cs_window {
   /* what borders between flat cells that end near the window's left end add to the sum of colours
    * from column to column */
   cs_sum4 change[CS_WINDOW_NARROW + 3];
-  bool has_change;      /* it is not all 0 */
+  bool has_change;      /* the change is not 0 everywhere */
   bool is_whole_row;    /* the whole row is one window: items may come in any order */
   cs_arena tiles;       /* memory for the weights of one tile; owned by the window */
   const cs_cell *ahead; /* the cell whose pixels up to ahead_end are folded */

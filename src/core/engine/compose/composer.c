@@ -2,7 +2,7 @@
 
 /* Number of cells that are remembered: a power of two, because two share a place. At least one for
  * each layer, up to MEMO_FEW. A row of more layers may have more cells than that, and most of its
- * cells are those of the row above, so there is one for each layer, up to MEMO_MOST. */
+ * cells are known from the row above, so there is one for each layer, up to MEMO_MOST. */
 #define MEMO_EACH 64
 #define MEMO_FEW 4096
 #define MEMO_MOST 16384

@@ -45,9 +45,9 @@ typedef struct cs_composer {
   const cs_stack *stack;
   cs_image_opacity opacity;
   uint64_t *set;          /* layers present at the place of the walk */
-  uint8_t *filled;        /* of the words of the set: see set.h */
+  uint8_t *filled;        /* 1 where a word of the set is not 0: see set.h */
   uint64_t *contributing; /* scratch */
-  cs_presence *presences; /* one a layer */
+  cs_presence *presences; /* one for each layer */
   /* the span of a layer at the place of the walk; NULL without scan-line layers */
   uint32_t *procedure_span_of;
   cs_set_hash hash; /* the hash of the set */
@@ -61,7 +61,7 @@ typedef struct cs_composer {
   size_t item_count, item_capacity;
   cs_item *gathered; /* scratch: the items of the cell being composed */
   size_t gathered_count, gathered_capacity;
-  cs_procedure_span *procedure_spans; /* of the current row */
+  cs_procedure_span *procedure_spans; /* spans of the current row */
   size_t procedure_span_count, procedure_span_capacity;
   uint64_t evaluations; /* cells composed */
   /* the first failure of the row, recorded in the context; kept until the row ends */

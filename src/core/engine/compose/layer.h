@@ -23,7 +23,7 @@ typedef enum cs_layer_kind {
   CS_LAYER_FLAT,
   CS_LAYER_SHADED,   /* a gradient or noise: varies along a row, as a formula */
   CS_LAYER_PICTURE,  /* varies from pixel to pixel */
-  CS_LAYER_SCANLINE, /* its paints are those of the procedure spans of the row */
+  CS_LAYER_SCANLINE, /* its paints are in the procedure spans of the row */
   CS_LAYER_DEFOCUSED /* a defocused cel */
 } cs_layer_kind;
 
@@ -69,8 +69,8 @@ typedef struct cs_shade {
   double plane[7][3];
   double eccentricity; /* RADIAL: 0 without a focus; else see engine/paint/shade.h */
   bool is_affine;      /* and w is above 0 everywhere */
-  bool is_steady;      /* it is the same in all columns of a row */
-  bool is_even;        /* it has stops, and their paints dim the three channels alike */
+  bool is_steady;      /* the paint is the same in all columns of a row */
+  bool is_even;        /* the stops' paints dim the three channels alike */
 } cs_shade;
 
 typedef struct cs_image_layer {
@@ -112,14 +112,14 @@ typedef enum cs_group_kind {
  * of one isolating group begin with the same layer, its rearmost one. */
 typedef struct cs_group {
   uint32_t parent; /* or CS_STACK_NONE */
-  uint32_t first;  /* its rearmost layer */
+  uint32_t first;  /* the rearmost layer of the group */
   float fade;
   bool has_light; /* a front light with a shape */
   bool varies;    /* it has such a light, or a group around it has one */
   bool curves;    /* it is a head (but not of a matte of alpha), a matte that dissolves, graded,
                      converted to another space, or inside such a group: the colours of the frame
                      are no affine function of its paints */
-  bool is_source; /* it is a head, or inside one */
+  bool is_source; /* the group is a head, or inside one */
   bool inverts;   /* MATTE: 1 less its strength */
   bool is_luma;   /* MATTE: its strength is luma, else alpha */
   bool dissolves; /* MATTE: the rest is opaque or clear */

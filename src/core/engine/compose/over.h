@@ -145,16 +145,16 @@ static inline cs_over_pair cs_over_dissolve(float strength, cs_over_pair art) {
 
 /* A group that has been entered and not yet left. */
 typedef struct cs_over_outer {
-  cs_over_pair outer; /* of the group around it, kept while this group is folded */
+  cs_over_pair outer; /* the state of the group around it, kept while this group is folded */
   cs_over_pair head;  /* GROUND and MATTE; clear until its head has been left */
   uint32_t group;     /* the group around it, entered before, or CS_STACK_NONE */
-  float keep;         /* of the group around it */
+  float keep;         /* what mattes of back lights leave in the group around it */
 } cs_over_outer;
 
 /* A fold under way. */
 typedef struct cs_over {
   const cs_stack *stack;
-  cs_v4 e, t;     /* of the innermost group */
+  cs_v4 e, t;     /* light and transmission of the innermost group */
   float keep;     /* the share of transparency that the mattes of back lights leave */
   uint32_t group; /* the innermost that was entered, or CS_STACK_NONE */
   size_t light;   /* the next back light to be met */

@@ -3,7 +3,7 @@
 #include <math.h>
 
 #define FOUR CS_OVER_FOUR
-#define QUADS 16      /* of a word */
+#define QUADS 16      /* quads in a word */
 #define CHOICES 16    /* choices among the four layers of a quad */
 #define LEAST_WORDS 4 /* fewer words are folded quickly without a table */
 

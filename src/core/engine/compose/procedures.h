@@ -43,7 +43,7 @@ void cs_procedures_init(cs_procedures *procedures, cs_composer *composer, cs_are
 void cs_procedures_finish(cs_procedures *procedures, cs_memory *memory);
 /* Whether a scan-line primitive may be visible on row y. */
 bool cs_procedures_meet(const cs_procedures *procedures, int32_t y);
-/* Calls every procedure at a height of the frame. Appends its spans to those of the composer, and
+/* Calls every procedure at a height of the frame. Appends its spans to the composer's, and
  * their edges to `edges`, in no order; they are valid until the arena is reset. Errors: NO_MEMORY;
  * CALLBACK and what procedures return. */
 CELSPAN_CHECKED celspan_status cs_procedures_collect(cs_procedures *procedures, double height,

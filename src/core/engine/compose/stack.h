@@ -55,7 +55,7 @@ typedef struct cs_tree {
 
 typedef struct cs_stack {
   cs_layer *layers;
-  cs_layer_rule *rules; /* one a layer */
+  cs_layer_rule *rules; /* one for each layer */
   cs_shade *shades;
   cs_image_layer *images;
   cs_procedure *procedures;
@@ -70,7 +70,7 @@ typedef struct cs_stack {
   size_t procedure_count, procedure_capacity;
   size_t defocused_count, defocused_capacity;
   size_t group_count, group_capacity;
-  size_t source_count; /* of groups with a mode: as many grounds may be inside each other */
+  size_t source_count; /* groups with a mode: as many grounds may be inside each other */
   size_t light_count, light_capacity;
   size_t step_count, step_capacity;
   size_t tree_count, tree_capacity;

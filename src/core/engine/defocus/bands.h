@@ -6,7 +6,7 @@
  *
  * A context has one such cache, which all its threads and frames share. The key of a band contains
  * a hash of everything that its layer depends on, so a defocused cel that does not change from one
- * frame to the next is not blurred again. The invariants are those of base/cache.h.
+ * frame to the next is not blurred again. The invariants of base/cache.h hold.
  */
 #pragma once
 

@@ -10,7 +10,7 @@
 
 /* Nodes in a radius. Between two nodes a Gaussian then deviates from a line by less than 1/2046
  * (its second derivative is at most 0.242/sigma^2), the rim of a disc by less than 0.9/1023, and
- * the kinks of a box by less than those of an edge. */
+ * the kinks of a box by less than the kinks of an edge. */
 #define FINE_GAUSSIAN 16
 #define FINE_DISC 28
 #define FINE_BOX 64

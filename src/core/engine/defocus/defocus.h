@@ -47,7 +47,7 @@ typedef enum cs_defocus_way {
   CS_DEFOCUS_SHIFTED /* the nodes are read from it along a shift */
 } cs_defocus_way;
 
-#define CS_DEFOCUS_ROWS_LEAST 8 /* of nodes in a band */
+#define CS_DEFOCUS_ROWS_LEAST 8 /* a band has at least as many rows of nodes */
 /* Samples in the radius of a Gaussian, at least. */
 #define CS_DEFOCUS_SAMPLES 4
 
@@ -66,10 +66,10 @@ struct cs_defocus {
   bool is_fine;     /* there are enough samples for each to be the mean over its area */
   bool is_own;      /* the grid of a cel's own, whose bands are nodes */
   cs_defocus *own;  /* the cel's own grid, where it has one, and how the nodes are mixed from it; */
-  cs_regrid regrid; /* then there are no plans here */
+  cs_regrid regrid; /* there are no plans beside it */
   cs_shifted shifted;
   cs_defocus *by;           /* the grid of what displaces the cel; NULL: nothing */
-  cs_plan plans[2];         /* one a plane; made by engine/defocus/layer.c */
+  cs_plan plans[2];         /* one for each plane; made by engine/defocus/layer.c */
   celspan_object *extended; /* the objects of the plans, continued beyond the frame; NULL: the cel's
                                own objects */
   cs_hash key;

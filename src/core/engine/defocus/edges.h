@@ -23,7 +23,7 @@
 #define CS_DEFOCUS_EDGES_PHASES 64 /* positions of an edge in its column that are tabulated */
 
 typedef struct cs_defocus_edges {
-  int32_t extent_x, extent_y; /* of the kernel: samples */
+  int32_t extent_x, extent_y; /* samples that the kernel reaches to a side */
   float *shares;  /* by phase and by 2 extent_x + 2 columns: of the kernel right of an edge */
   float *weights; /* extent_y of them: of lines k + 1/2 rows away */
 } cs_defocus_edges;

@@ -13,7 +13,7 @@ typedef struct node_plane {
   cs_row row;
   float (*nodes)[4]; /* the row that is being made: a row of the band, or `alone` */
   float (*alone)[4]; /* NULL where the band keeps all nodes */
-  bool *even;        /* by group */
+  bool *even;        /* for each group */
 } node_plane;
 
 typedef struct filling {

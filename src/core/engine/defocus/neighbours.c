@@ -9,9 +9,9 @@
 #include "model/geometry/boundary.h"
 
 #define TILE 64            /* nodes of a row that are made together */
-#define NEAR 1e-6          /* of a sample: a side of the box that lies so near to one lies on it */
-#define LEAST (1 / 510.0F) /* of alpha */
-#define RIM 0.016          /* of a cosine: how softly the cone of a spot ends */
+#define NEAR 1e-6          /* samples: a side of the box that lies so near to one lies on it */
+#define LEAST (1 / 510.0F) /* the least alpha that counts */
+#define RIM 0.016          /* how softly the cone of a spot ends, as a difference of cosines */
 
 /* ---------------------------------------------------------------- life */
 

@@ -16,7 +16,7 @@
 #define SAMPLES_LEAST 4
 #define LEAST_RADIUS 3 /* pixels: smaller radii would need many nodes for each pixel */
 #define BEYOND 4       /* nodes of the part beyond the visible area */
-/* from the cel's origin, in nodes: at this distance the axes are wrong by 1/100 */
+/* nodes from the cel's origin, where the axes are wrong by 1/100 */
 #define FARTHEST (1 << 17)
 #define PARTS 8       /* the part is rounded to this share of the frame's nodes */
 #define LEAST_STEP 16 /* but at least to this number of nodes */

@@ -9,7 +9,7 @@
 #include "base/vector.h"
 
 #define PIXELS (CS_WIDE_LANES / 4)
-#define REGISTERS 4 /* that are looked at together */
+#define REGISTERS 4 /* registers that are looked at together */
 
 _Static_assert(sizeof(cs_regrid_column) == sizeof(cs_v4), "a column lies where a pixel does");
 

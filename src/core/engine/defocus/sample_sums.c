@@ -7,7 +7,7 @@
 #include <math.h>
 
 #define FACTOR 9 /* at most */
-#define STEPS 64 /* of the integral over one sample */
+#define STEPS 64 /* steps of the integral over one sample */
 #define TILE 64  /* nodes of a row that are summed together */
 
 /* ---------------------------------------------------------------- weights */

@@ -28,7 +28,7 @@ typedef struct cs_defocus_pair {
 
 typedef struct cs_defocus_sums {
   bool sharpens;              /* the nodes are sharpened samples; the factor is 1 */
-  float amount;               /* of that: how often the difference is added to what is shown */
+  float amount;               /* how often the difference is added to what is shown */
   int32_t factor;             /* samples in a node's width */
   int32_t extent_x, extent_y; /* samples beyond the node's own on each side */
   float *weights[2];          /* by distance: extent_x + 1 and extent_y + 1 of them */

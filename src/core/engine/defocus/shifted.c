@@ -6,7 +6,7 @@
 #include "model/geometry/matrix.h"
 
 #define TAPS 2048      /* at most */
-#define SEGMENTS 16    /* of a way, to measure it */
+#define SEGMENTS 16    /* pieces of a way whose lengths are added */
 #define MOST (1 << 26) /* nodes of a grid that is read: 1 GiB a plane, if all of it is */
 
 /* ---------------------------------------------------------------- taps */

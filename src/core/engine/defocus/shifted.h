@@ -27,7 +27,7 @@ typedef struct cs_shifted {
   cs_defocused_range columns, rows;  /* pixels of the frame that may not be clear */
   const cs_defocused *from, *by;     /* by: where the cel is displaced by something, else NULL */
   int32_t from_at[2], by_at[2];      /* the nodes under the frame's first pixel */
-  bool is_line;                      /* the taps are those of `line`; else: */
+  bool is_line;                      /* `line` has the taps; else: */
   cs_shifted_line line;
   celspan_matrix *taps;
   size_t tap_count;

@@ -89,7 +89,7 @@ static void add_point(cs_defocus_lines *f, double x, const cs_defocus_halves *st
   const cs_defocus_edges *edges = f->edges;
   int32_t extent = edges->extent_x, stride = 2 * extent + 2;
   double at = x - 0.5, column = floor(at), phase = (at - column) * PHASES;
-  int32_t row = cs_number_row(phase, PHASES), from = (int32_t)column - 2 * extent; /* of nodes */
+  int32_t row = cs_number_row(phase, PHASES), from = (int32_t)column - 2 * extent; /* nodes */
   const float *low = edges->shares + row * stride, *high = low + stride;
   int32_t first = from > 0 ? 0 : -from, end = f->columns - from;
   end = end > stride ? stride : end;

@@ -48,7 +48,7 @@ typedef struct cs_defocus_passed {
 
 /* The columns of a row while they are summed up. */
 typedef struct cs_defocus_columns {
-  cs_defocus_halves *near;  /* of edges inside the kernel of the column */
+  cs_defocus_halves *near;  /* edges inside the kernel of the column */
   cs_defocus_passed *steps; /* the steps of edges that are left of the kernel from this column on */
   cs_v4 *below;             /* what the row above added to the line below it */
 } cs_defocus_columns;

@@ -7,7 +7,7 @@
  *                      +-------+-------+-------+   can see
  *
  * A tile is dead for a chain if all of the tile lies behind layers that let nothing through. The
- * courses of bundles come after those of the chains. Without a cull there are none.
+ * courses of bundles come after the courses of chains. Without a cull there are none.
  */
 #pragma once
 
@@ -48,7 +48,7 @@ CELSPAN_CHECKED celspan_status cs_windings_cross(celspan_context *context, cs_wi
 /* ---- bundle.c */
 
 typedef struct cs_bundle {
-  uint32_t first, count;   /* of the cull's deferred changes */
+  uint32_t first, count;   /* the cull's deferred changes */
   cs_windings_hash change; /* the change of all these changes together */
 } cs_bundle;
 

@@ -10,7 +10,7 @@ typedef struct maker {
   /* in units: points are made from the last one above the top down to the first one below the
    * foot */
   int32_t top, foot;
-  double *x, *y; /* of the vertices of a piece */
+  double *x, *y; /* places of the vertices of a piece */
 } maker;
 
 /* Rounds to the nearest unit. The place is shifted first, so that cutting off the fraction rounds

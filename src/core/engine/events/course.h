@@ -18,11 +18,11 @@
 
 #include "model/geometry/boundary.h"
 
-#define CS_COURSE_UNIT 65536 /* of a pixel */
+#define CS_COURSE_UNIT 65536 /* parts of a pixel */
 
 typedef struct cs_course_point {
   int32_t x, y;
-  double slope; /* of x by y, down to the next point; 0 of a jump, and of the last point */
+  double slope; /* change of x by y down to the next point; 0 at a jump and at the end */
 } cs_course_point;
 
 typedef struct cs_course {

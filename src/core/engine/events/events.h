@@ -38,7 +38,7 @@ typedef struct cs_events_part {
 
 typedef struct cs_events {
   cs_courses courses;
-  cs_bundles bundles; /* their courses follow those of the chains */
+  cs_bundles bundles; /* their courses follow the courses of chains */
   cs_windings windings;
   cs_events_part *parts; /* the parts of a course from the top down */
   size_t part_count, part_capacity;

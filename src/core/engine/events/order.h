@@ -55,7 +55,7 @@ typedef struct cs_order {
   size_t index_count, index_capacity, count;
   size_t entered; /* courses that were put in after the index was made */
   uint32_t last;  /* the last one of these, or the ends */
-  int32_t foot;   /* of the belt */
+  int32_t foot;   /* where the belt ends */
 } cs_order;
 
 /* Errors: NO_MEMORY; cs_order_finish must be called then, too. */

@@ -20,10 +20,10 @@ typedef struct cs_filter {
   const cs_kernel *kernel; /* borrowed; NULL: the filter was never begun */
   cs_painter *painter;     /* borrowed */
   cs_filter_retain *retain;
-  void *user; /* of retain */
+  void *user; /* for retain */
   cs_retained_row *rows;
   const cs_retained_row **under; /* the rows under the kernel, from the topmost down */
-  size_t row_count;              /* the row count of rows, and room in under */
+  size_t row_count;              /* the number of rows, and of places in under */
   cs_convolve convolve;
 } cs_filter;
 

@@ -146,7 +146,7 @@ int32_t cs_kernel_extent(const cs_kernel *kernel) {
 
 typedef struct axis { /* room for making a table */
   double samples[SAMPLES];
-  double narrow[SAMPLES + 1], twice[SAMPLES + 1]; /* before the blur: the shares, their integral */
+  double narrow[SAMPLES + 1], twice[SAMPLES + 1]; /* shares before the blur, and their integral */
   double first[SAMPLES + 1];
 } axis;
 

@@ -44,9 +44,9 @@ typedef struct cs_kernel {
   double sharpness;          /* SEPARABLE: how finely a slanted edge is cut; 1 for the sharpest */
   double edges[2][2];        /* PARALLELOGRAM: half of two sides; the second is the steeper */
   int offsets;   /* even shapes: the kernel is the mean of offsets x offsets copies of the shape */
-  double spread; /* that are spread evenly over a square of this width */
+  double spread; /* the width of the square over which copies are spread evenly */
   /* At -1 + 2 i / SAMPLES in units of the radius: shares of the kernel, 0 .. 1 */
-  double above[CS_ANTIALIAS_SAMPLES + 1]; /* over a height */
+  double above[CS_ANTIALIAS_SAMPLES + 1]; /* the share of the kernel over a height */
   /* SEPARABLE: the shares to the right of an edge that lies phase/phases right of a pixel's centre.
    * They begin `columns` columns left of that pixel; there are `stride` of them, after which they
    * are 1. */

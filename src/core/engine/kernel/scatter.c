@@ -313,7 +313,7 @@ static celspan_status scatter_separable(cs_scatter *g, const cs_border *edge) {
  * A long chord over an upright segment is a ramp along the columns: one change of slope where it
  * begins, and one where it ends.
  */
-#define NARROW 1e-4  /* of a chord: segments that cross less count as upright */
+#define NARROW 1e-4  /* segments that cross less of a chord count as upright */
 #define NOTHING 1e-9 /* shorter chords have no weight worth adding */
 /* columns; where chords are longer, segments that cross few columns are treated as ramps */
 #define RAMP 8

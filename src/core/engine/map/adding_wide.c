@@ -58,7 +58,7 @@ typedef struct target {
   cs_map_sum *sums;
   unsigned char *bits;
   uint32_t stride;   /* bytes of a row of bits */
-  int32_t top, side; /* of the swath, and the right side of the frame */
+  int32_t top, side; /* the top of the swath, and the right side of the frame */
   bool is_inside;    /* no place is left or right of the frame; a constant of each caller */
   bool varies;       /* the areas of cells that vary are listed; a constant of each caller */
   cs_v4 step;

@@ -33,7 +33,7 @@
 typedef struct cs_map_line {
   cs_segment at;
   cs_v4 step;     /* the colour on the right less the colour on the left */
-  cs_v4 through;  /* the same for the transmission */
+  cs_v4 through;  /* the difference of the transmissions */
   uint32_t sheet; /* the sheet of the list */
 } cs_map_line;
 

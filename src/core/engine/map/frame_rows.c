@@ -105,7 +105,7 @@ typedef struct folding {
   cs_map_maker *maker;
   int32_t y;
   const cs_map_span *at[CS_MAP_DRAWINGS]; /* the span of each sheet */
-  folded before[CS_MAP_DRAWINGS + 1];     /* of each sheet that may be visible, and one more */
+  folded before[CS_MAP_DRAWINGS + 1];     /* one for each sheet that may be visible, and one more */
   size_t shown_count;                     /* sheets that may be visible, from the camera */
 } folding;
 

@@ -4,7 +4,7 @@
  *   frame 2 --acquire (drawing, scale)--> found ---+--> one map of the cache
  *
  * A context has one such cache, which all its threads and frames share. The key of a map contains
- * a hash of everything that it depends on. The invariants are those of base/cache.h.
+ * a hash of everything that it depends on. The invariants of base/cache.h hold.
  */
 #pragma once
 

@@ -33,7 +33,7 @@
 #include "engine/compose/cell.h"
 #include "engine/row/plan.h"
 
-#define CS_MAP_UNIT 65536    /* of a pixel of the raster */
+#define CS_MAP_UNIT 65536    /* parts of a pixel of the raster */
 #define CS_MAP_SIDE 16384    /* pixels of a raster's side, at most */
 #define CS_MAP_CELLS 1048576 /* at most */
 #define CS_MAP_ZONES 64      /* at most, by the bits of cs_map.missing */
@@ -55,7 +55,7 @@ typedef struct cs_map_point {
 typedef struct cs_map_border {
   uint32_t left, right;    /* the cells on both sides, which differ */
   uint32_t first, count;   /* points, at least two, downwards */
-  int32_t low, high, foot; /* its least and its greatest x, and its last y */
+  int32_t low, high, foot; /* the least and the greatest x of the border, and its last y */
 } cs_map_border;
 
 typedef struct cs_map_lines {
@@ -78,7 +78,7 @@ typedef struct cs_map {
   bool is_coloured;
   bool is_whole;        /* false: the drawing cannot be a map, and the other fields are empty */
   int64_t left, top;    /* where the raster begins, in its pixels from the drawing's origin */
-  int32_t height, zone; /* of the raster, and of a zone, in pixels */
+  int32_t height, zone; /* pixels of the raster, and of a zone */
   uint64_t missing;     /* bit k: zone k was requested, but has too many windings */
   cs_map_lines lines;
   cs_map_flat *flats; /* only of a map that is turned */

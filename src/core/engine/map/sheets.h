@@ -38,7 +38,7 @@ typedef struct cs_map_frame {
   /* maps that were made for this frame, because they were not kept from an earlier one */
   size_t made;
   bool has_gaps; /* a zone of some map is missing: some rows cannot be made (frame_rows.h) */
-  cs_v4 back;    /* of the frame, as above */
+  cs_v4 back;    /* the back light of the frame, as above */
   float keep;
   int32_t width, height;
 } cs_map_frame;

@@ -13,7 +13,7 @@
 #include "base/wide.h"
 #include "engine/map/map.h"
 
-#define CS_MAP_ROWS 8 /* of a swath: its first row is a multiple of it */
+#define CS_MAP_ROWS 8 /* rows of a swath: its first row is a multiple of it */
 /* units of a row's height: heights and areas are multiples of 1 / this */
 #define CS_MAP_HEIGHT 65536
 #define CS_MAP_BROKEN UINT32_MAX
@@ -61,7 +61,7 @@ typedef struct cs_map_span {
 typedef struct cs_map_live {
   uint32_t border, at, end;
   uint32_t next;           /* the same index as `at`, for the swath below */
-  int32_t low, high, foot; /* of the border, in the units of places */
+  int32_t low, high, foot; /* where the border is, in the units of places */
   bool varies;             /* a cell on one of its sides varies */
   uint64_t key;            /* the difference of the keys, from its left to its right */
   float step[4];           /* the difference of the colours, for each HEIGHTth of a pixel */

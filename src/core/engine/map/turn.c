@@ -55,7 +55,7 @@ static celspan_status end_part(turner *t, const course *c, bool goes_up, size_t 
 
 static celspan_status add_course(turner *t, const course *c) {
   size_t first = 0;  /* point of the part */
-  int direction = 0; /* of the part; 0: none has begun */
+  int direction = 0; /* the direction of the part; 0: none has begun */
   cs_map_point last = place(t, c->points[0]);
   for (uint32_t k = 1; k < c->count; k++) {
     cs_map_point next = place(t, c->points[k]);

@@ -18,7 +18,7 @@
 #include "engine/span/run.h"
 
 #define CS_OVER_PLANES_ROOM (CS_OVER_ROW_BATCH + 16) /* whole registers are read and written */
-#define CS_OVER_PLANES_ITEMS 64 /* of a program that is folded ahead: longer ones are rare */
+#define CS_OVER_PLANES_ITEMS 64 /* longer programs, which are rare, are not folded ahead */
 
 typedef struct cs_over_channels {
   float light[3][CS_OVER_PLANES_ROOM], through[CS_OVER_PLANES_ROOM];

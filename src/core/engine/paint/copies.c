@@ -11,7 +11,7 @@
  * The pieces of a run are the same as long as its rows lie on the same blocks: they are kept, with
  * the addresses of the codes, until another block is fetched.
  *
- * Invariant: the codes are those of the run's colours, to the bit.
+ * Invariant: the codes are the run's colours coded, to the bit.
  */
 #include "engine/paint/run.h"
 

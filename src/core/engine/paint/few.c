@@ -5,7 +5,7 @@
  *
  * For a few pixels the states of whole batches (over_row.h) cost more than what is folded.
  *
- * Invariant: the arithmetic is that of over_row.h.
+ * Invariant: the arithmetic is the same as in over_row.h.
  */
 #include "engine/paint/colours.h"
 
@@ -29,7 +29,7 @@ bool cs_few_fits(const cs_stack *stack, const cs_program *program) {
   }
   if (defocused == 0)
     return formulas > 1;                                      /* one alone is read from a table */
-  return defocused == 1 || (made == 0 && stack->has_sources); /* then little is hidden */
+  return defocused == 1 || (made == 0 && stack->has_sources); /* in such a stack little is hidden */
 }
 
 static celspan_status move_views(cs_painter *painter, const cs_program *program, double y) {

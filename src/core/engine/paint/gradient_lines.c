@@ -242,7 +242,7 @@ static celspan_status split_program(cs_halving_curve *curve, int32_t column,
 typedef enum line_shape {
   STEPPED = 1,  /* one colour, at any column */
   STRAIGHT = 2, /* a line, by its ends */
-  CURVED = 5    /* its ends and the quarters; more if they are not on a line */
+  CURVED = 5    /* ends and quarters; more if they are not on a line */
 } line_shape;
 
 enum { MOST_BENDS = 2 }; /* of one layer: where there are more, several layers vary: no table */

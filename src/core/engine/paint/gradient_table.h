@@ -45,8 +45,8 @@ CELSPAN_CHECKED celspan_status cs_gradient_tables_create(celspan_context *contex
                                                          const cs_stack *stack, cs_isa isa,
                                                          cs_arena *scratch,
                                                          cs_gradient_tables **out);
-void cs_gradient_tables_destroy(cs_gradient_tables *tables,
-                                cs_memory *memory); /* NULL is nothing */
+/* tables: NULL is nothing. */
+void cs_gradient_tables_destroy(cs_gradient_tables *tables, cs_memory *memory);
 
 /* *out: the table of a program, valid until the next request; NULL if the program has no table.
  * tables: if NULL, no program has a table. Errors: NO_MEMORY. */

@@ -23,7 +23,7 @@ static view view_of(celspan_noise_kind kind) {
 
 typedef struct row {
   double u[CS_NOISE_PLACES], v[CS_NOISE_PLACES]; /* cells of the first octave */
-  double side[CS_NOISE_PLACES]; /* of such a cell on the film, pixels; below 0 behind the horizon */
+  double side[CS_NOISE_PLACES]; /* a cell's side on the film, pixels; below 0 behind the horizon */
   float strength[CS_NOISE_PLACES]; /* the strength of the current octave */
   float values[CS_NOISE_PLACES], sum[CS_NOISE_PLACES];
   cs_noise_places places;

@@ -18,7 +18,7 @@
 #include "engine/compose/layer.h"
 
 #define CS_NOISE_PLACES 64 /* found at a time */
-#define CS_NOISE_LANES 16  /* of the widest register: the loops below run over a multiple of them */
+#define CS_NOISE_LANES 16  /* lanes of the widest register: loops run over multiples of them */
 
 /* Places in the cells of one octave. */
 typedef struct cs_noise_places {

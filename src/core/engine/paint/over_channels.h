@@ -13,7 +13,7 @@
  * (171.1 million instead of 166.0, at 1280 x 720). Without over_row.h, this one would need a
  * transmission for each channel, groups, keys, mattes and blend modes.
  *
- * Invariant: the arithmetic is that of over_row.h, so the bits are the same.
+ * Invariant: the arithmetic is the same as in over_row.h, so the bits are the same.
  */
 #pragma once
 
@@ -47,7 +47,7 @@ CS_WIDE_DECLARE(void, cs_over_channels_add_light,
 /* Multiplies light by the light of a front light, as cs_over_row_light_group. */
 CS_WIDE_DECLARE(void, cs_over_channels_light,
                 (cs_over_channels * pixels, const cs_over_channels *front));
-/* Adds a layer with a gradient, whose pixels are those of the batch. */
+/* Adds a layer with a gradient, for the pixels of the batch. */
 CS_WIDE_DECLARE(void, cs_over_channels_add_shade,
                 (cs_over_channels * pixels, const cs_layer *layer, const cs_shade *shade,
                  const cs_batch *batch));

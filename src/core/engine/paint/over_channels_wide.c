@@ -52,7 +52,7 @@ typedef struct piece {
   const cs_layer *layer;
   const cs_shade *shade;
   const cs_batch *batch;
-  int32_t first, count; /* of the batch's pixels */
+  int32_t first, count; /* pixels of the batch */
   double at[ROOM];      /* where they lie along the stops */
 } piece;
 

@@ -45,13 +45,13 @@ typedef struct cs_over_row_state {
 
 /* A group that has been entered and not yet left. */
 typedef struct cs_over_row_outer {
-  cs_over_row_state *outer; /* of the group around it, put aside */
+  cs_over_row_state *outer; /* the state of the group around it, put aside */
   bool is_clear;            /* nothing has been added to `outer` yet */
   cs_over_row_state *head;  /* GROUND and MATTE: composited, not yet faded; NULL: none was met */
-  float head_fade;          /* there */
-  float (*front)[4];        /* its front light, where that has a shape */
+  float head_fade;          /* the fade of the head */
+  float (*front)[4];        /* the group's front light, where that has a shape */
   uint32_t group;           /* the group around it, entered before, or CS_STACK_NONE */
-  float keep;               /* of the group around it */
+  float keep;               /* what mattes of back lights leave in the group around it */
 } cs_over_row_outer;
 
 typedef struct cs_over_row {

@@ -39,7 +39,7 @@ typedef struct cs_shown {
   size_t capacity;
   uint32_t length;
   bool ends_opaque; /* nothing shines through them */
-  bool is_sure;     /* the same is known of every part of the columns */
+  bool is_sure;     /* this is known of every part of the columns */
 } cs_shown;
 
 /* Pieces of a run of copied pictures: copies.c. */
@@ -82,17 +82,17 @@ typedef struct cs_painter {
   cs_image_view *images;
   cs_block_cache *blocks; /* the blocks of its pictures; NULL without pictures */
   cs_defocused_view *defocused;
-  cs_painter_steady *steady;            /* one a shade */
+  cs_painter_steady *steady;            /* one for each shade */
   struct cs_gradient_tables *gradients; /* NULL without formulas: gradient_table.h */
   cs_over_channels_ahead *ahead;        /* two, or NULL: ahead.h */
   int next_ahead;                       /* which of the two is replaced next */
   cs_copies_plan *copies;               /* NULL without pictures: copies.c */
   cs_arena scratch;                     /* the scratch of one run */
-  cs_shown shown[2];    /* of the columns being painted, and of those right of them */
+  cs_shown shown[2];    /* what the columns show that are painted now, and those right of them */
   uint64_t evaluations; /* pixels whose colour has been computed */
 } cs_painter;
 
-/* stack: that of the programs, borrowed; composer: initialized, borrowed; NULL: no cells will be
+/* stack: the programs' stack, borrowed; composer: initialized, borrowed; NULL: no cells will be
  * painted. The painter must not be moved.
  * Errors: NO_MEMORY; cs_painter_finish must be called then, too. */
 CELSPAN_CHECKED celspan_status cs_painter_init(cs_painter *painter, celspan_context *context,

@@ -302,7 +302,7 @@ static celspan_status run_copies(cs_painter *painter, const cs_program *program,
   const cs_copies_plan *plan;
   while (run.x0 < run.x1) {
     CS_TRY(cs_copies_find(painter, program, run, &plan));
-    size_t end = 0; /* of the pieces whose codes are known */
+    size_t end = 0; /* where the pieces end whose codes are known */
     while (end < plan->count && plan->pieces[end].kind != CS_COPIES_OTHER)
       end++;
     CS_TRY(cs_copies_put(painter, plan, end, run, row));

@@ -182,7 +182,7 @@ void cs_shade_find(const cs_shade *shade, const double *x, int32_t count, double
 /* What is done with paints at places along the stops. */
 typedef struct fold {
   const cs_layer *layer; /* to which the paints belong; NULL: they are put as they are */
-  bool is_first;         /* of the layers */
+  bool is_first;         /* whether it is the first layer */
 } fold;
 
 static void fold_stops(const fold *f, const cs_shade *shade, const double *x, int32_t count,

@@ -106,7 +106,7 @@ typedef struct cs_shade_state {
   float (*e)[4], (*t)[4];
   bool is_first;
 } cs_shade_state;
-/* Adds the paints there, lit and faded as those of a layer, behind what has been added. */
+/* Adds the paints there, lit and faded as in a layer, behind what has been added. */
 void cs_shade_fold(const cs_shade *shade, const cs_layer *layer, const double *x, int32_t count,
                    double y, const cs_shade_state *state);
 /* The places x inside a run at which the formula bends, in no order; at most as many as the limit

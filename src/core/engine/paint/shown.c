@@ -8,7 +8,7 @@ static const cs_v4 clear = {1, 1, 1, 0};
 /* What is known of an item in some columns. */
 typedef struct bound {
   cs_v4 through; /* the most that each channel lets through there */
-  bool is_clear; /* it is clear in all of them */
+  bool is_clear; /* the layer is clear in all columns */
   bool is_sure;  /* no single column is known better than all columns together */
 } bound;
 

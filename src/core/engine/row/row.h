@@ -20,7 +20,7 @@ typedef struct cs_row_maker {
   const cs_plan *plan;      /* borrowed */
   cs_active active;         /* the boundaries that the current height crosses, in order */
   cs_composer composer;
-  cs_cells cells;     /* between the boundaries */
+  cs_cells cells;     /* the cells between the boundaries */
   cs_painter painter; /* the painter of the cells */
   cs_procedures procedures;
   cs_arena arena; /* the arena of the current row */

@@ -337,7 +337,7 @@ cs_v4 cs_defocused_through(const cs_defocused *defocused, const cs_defocused_vie
 /* A line of a row: its ends, and the values from its first vertex to its second. */
 typedef struct row_line {
   double from, to;
-  cs_v4 left[2], step[2]; /* by plane */
+  cs_v4 left[2], step[2]; /* one for each plane */
 } row_line;
 
 static inline row_line line_at(const cs_defocused *defocused, const cs_defocused_view *view,

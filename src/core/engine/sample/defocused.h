@@ -37,7 +37,7 @@
  * even group all nodes are equal, and only its first and its last one need to be there. */
 typedef struct cs_defocused_nodes {
   const float (*planes[2])[4];
-  const bool *even; /* by group, in all planes together; NULL: unknown */
+  const bool *even; /* for each group, in all planes together; NULL: unknown */
 } cs_defocused_nodes;
 
 /* A band: band_rows rows of nodes that are made and kept together, plane after plane or as

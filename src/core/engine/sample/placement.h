@@ -20,7 +20,7 @@ typedef enum cs_sampler_placement {
   CS_SAMPLER_COPY,        /* moved by whole pixels, at scale 1: the texels themselves */
   CS_SAMPLER_UPRIGHT,     /* rows stay rows: a line of texels is made first (sampler_row.h) */
   CS_SAMPLER_AFFINE,      /* the mean of taps spread over the pixel (sampler_taps.h) */
-  CS_SAMPLER_PERSPECTIVE, /* likewise, but how many taps differs from pixel to pixel */
+  CS_SAMPLER_PERSPECTIVE, /* such a mean; how many taps differs from pixel to pixel */
   CS_SAMPLER_SINGLE       /* one by one: bicubic, and means where rows become columns */
 } cs_sampler_placement;
 
@@ -51,7 +51,7 @@ typedef struct cs_sampler {
   int level_count;
   int level;
   int columns, rows;       /* TILTED: taps across a pixel and down it */
-  int32_t opacity_columns; /* of each call of cs_sampler_opacity; INT32_MAX: not to be called */
+  int32_t opacity_columns; /* most for a call of cs_sampler_opacity; INT32_MAX: not called */
   bool reads_codes;        /* decodes the codes of coded blocks in registers */
   double radius; /* affine: how far the texels of a sample lie from its centre, picture pixels */
   double wide, high; /* BOX: the sides of the footprint, in picture pixels */

@@ -9,7 +9,7 @@
  * texels about it, at any scale.
  *
  * CLEAR makes pixels whose centre lies outside the picture clear; inside, texels
- * that a kernel needs beyond an edge are those of the edge, so a picture gets no blurred border.
+ * that a kernel needs beyond an edge equal the edge's texels, so a picture gets no blurred border.
  *
  * The samples of a run depend on the pixel and the maps alone, never on where the run begins, nor
  * on the instructions that make them.

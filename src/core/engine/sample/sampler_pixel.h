@@ -18,7 +18,7 @@ void cs_sampler_bicubic(const cs_sampling *run, double u, double v, float rgba[4
 typedef struct cs_sampler_axis {
   double width;         /* the width of a box */
   double least, most;   /* the edges of the picture, unless it repeats */
-  double side, inverse; /* of a texel of the level; a power of two, so both are exact */
+  double side, inverse; /* a texel's side on the level: a power of two, so both are exact */
 } cs_sampler_axis;
 
 cs_sampler_axis cs_sampler_axis_of(const cs_sampler *sampler, double width, int32_t size);

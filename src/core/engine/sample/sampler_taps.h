@@ -31,7 +31,7 @@ bool cs_sampler_taps_planes(const cs_sampling *run, cs_run pixels, float (*plane
 typedef struct cs_sampler_centres {
   double u[CS_SAMPLER_BATCH], v[CS_SAMPLER_BATCH];
   double near[CS_SAMPLER_BATCH];     /* 1 / w; 0 at and behind the horizon, where u and v are 0 */
-  bool all_visible;                  /* then `visible` is not filled */
+  bool all_visible;                  /* all are visible, and `visible` is not filled */
   int32_t visible[CS_SAMPLER_BATCH]; /* 0: the pixel is clear */
 } cs_sampler_centres;
 
@@ -41,7 +41,7 @@ typedef struct cs_sampler_quads {
   float across[CS_SAMPLER_BATCH], down[CS_SAMPLER_BATCH];
   /* names the block that holds all four texels; -1: no block holds them all */
   int32_t key[CS_SAMPLER_BATCH];
-  int32_t offset[CS_SAMPLER_BATCH]; /* of the first texel of the quad in the block, in texels */
+  int32_t offset[CS_SAMPLER_BATCH]; /* from the block to the first texel of the quad, in texels */
 } cs_sampler_quads;
 
 /* A tap's place in its pixel, relative to the pixel's centre, in pixels of the frame. */

@@ -67,11 +67,11 @@ static inline cs_change cs_change_join(cs_change a, cs_change b) {
 
 /* One boundary between the heights, when it is not a single segment there. */
 typedef struct cs_bend {
-  uint32_t boundary;     /* its index in the order at the current height */
-  uint32_t vertex;       /* of its vertices strictly between the heights, downwards */
+  uint32_t boundary;     /* the index in the order at the current height */
+  uint32_t vertex;       /* the boundary's first vertex strictly between the heights */
   uint32_t vertex_count; /* the number of them */
-  bool ends;             /* its chain does not cross the next height */
-  bool ends_above;       /* its chain ends above the next height, at its last vertex */
+  bool ends;             /* the chain does not cross the next height */
+  bool ends_above;       /* the chain ends above the next height, at its last vertex */
   double low, high;      /* the least and the greatest x on the way, both ends included */
 } cs_bend;
 
@@ -101,7 +101,7 @@ typedef struct cs_active {
   cs_crossing *crossing;
   uint32_t *slot;
   size_t count;
-  cs_boundary_walk *walks; /* by slot */
+  cs_boundary_walk *walks; /* one for each slot */
   /* The heights. */
   double y;          /* the current height */
   double y_next;     /* the height advanced to */

@@ -47,7 +47,7 @@ typedef struct cs_cull_layer {
  * complete; the group hides the layers behind it by the factor `fade`. */
 typedef struct cs_cull_group {
   uint32_t parent; /* or CS_CULL_NONE */
-  uint32_t first;  /* its rearmost layer */
+  uint32_t first;  /* the rearmost layer of the group */
   double fade;
 } cs_cull_group;
 

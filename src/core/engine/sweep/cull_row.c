@@ -9,7 +9,7 @@
  *            +---+---+---+---+---+---+---+---+  foot of the row
  *   touched    1   1   0   0   0   1   1   0    by some chord, widened by its slack
  *   winding    1   1   1   1   1   0   0   0    changed in the first tile that a chain touches
- *   inside     0   0   1   1   1   0   0   0    the winding is that of the layer's presence, and no
+ *   inside     0   0   1   1   1   0   0   0    the winding makes the layer present, and no
  *                                               chain touches the tile
  *   live       1   1   1   0   0   1   1   1    inside tiles whose layers now let almost nothing
  *                                               through are dead for the layers behind

@@ -17,7 +17,7 @@
 #include "engine/sweep/active.h"
 
 typedef struct cs_pieces {
-  celspan_point above, below; /* of the current piece */
+  celspan_point above, below; /* ends of the current piece */
   celspan_point foot;
   const celspan_point *vertex; /* where the next piece ends, unless it is the last one */
   uint32_t rest;               /* pieces that follow */

@@ -33,7 +33,7 @@ typedef struct cs_film_frame {
   celspan_exposure *exposures; /* made by cs_film_frame_init alone, owned; each holds a reference to
                                   its rostrum */
   size_t count;
-  bool repeats; /* it is one of several: see celspan_frame_desc */
+  bool repeats; /* the frame is one of several: see celspan_frame_desc */
 } cs_film_frame;
 
 /* Copies the exposures and takes a reference to each rostrum. out: new, must be finished, by any

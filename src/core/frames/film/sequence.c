@@ -10,7 +10,7 @@
 #include "base/open.h"
 #include "output/sinks/file.h"
 
-#define MOST_FRAMES 10000000 /* of one list; 80 MB of numbers */
+#define MOST_FRAMES 10000000 /* frames of one list; 80 MB of numbers */
 #define MOST_NUMBER 1000000000000
 #define MOST_WIDTH 20
 

@@ -67,7 +67,7 @@ typedef struct job {
   bool has_duplicates; /* equal frames are searched for */
   known_frames duplicates;
   bool repeats;                    /* equal frames of a stream are given on again */
-  pictured built_last, given_last; /* of a stream */
+  pictured built_last, given_last; /* the last frames of a stream */
 } job;
 
 /* The data of a frame in the pipeline. */
@@ -75,10 +75,10 @@ typedef struct frame_task {
   cs_shoot_frame frame;
   cs_film_frame built;
   bool is_known; /* `duplicate` is set */
-  bool is_first; /* of the frames that are equal */
+  bool is_first; /* the first of the frames that are equal */
   size_t duplicate;
   size_t slot;  /* the slot of a stream */
-  bool repeats; /* it shows the same as the frame before it */
+  bool repeats; /* the frame shows the same as its predecessor */
 } frame_task;
 
 /* ---------------------------------------------------------------- building */

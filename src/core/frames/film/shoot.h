@@ -29,8 +29,8 @@
 
 typedef enum cs_shoot_way {
   CS_SHOOT_MADE = 0,
-  CS_SHOOT_COPIED, /* from an equal frame */
-  CS_SHOOT_KEPT    /* it was there already */
+  CS_SHOOT_COPIED, /* the file was copied from an equal frame */
+  CS_SHOOT_KEPT    /* the file was there already */
 } cs_shoot_way;
 
 typedef struct cs_shoot_frame {
@@ -41,7 +41,7 @@ typedef struct cs_shoot_frame {
   cs_hash scene;
   cs_hash inputs; /* of its pictures' files; set only where `keep` is given */
   uint64_t digest[2];
-  double seconds;            /* that building and making it took */
+  double seconds;            /* how long building and making it took */
   cs_file_contents contents; /* the contents of its file, where that was made or copied */
 } cs_shoot_frame;
 
@@ -58,7 +58,7 @@ typedef struct cs_shoot {
   cs_film_info film;
   const cs_sequence *frames;
   const char *pattern;      /* the pattern of the files' names; NULL: no files */
-  celspan_frame_desc frame; /* without exposures; workers: of the whole run */
+  celspan_frame_desc frame; /* without exposures; workers: for the whole run */
   celspan_file_desc file;   /* without the fields that come from the film and its frames */
   bool has_digests;         /* each frame's pixels are hashed */
   bool keeps_going;         /* a frame that fails does not end the run */

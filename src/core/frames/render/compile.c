@@ -27,7 +27,7 @@
  */
 
 #define LAYERS_LEAST 8
-#define ROWS_LEAST 20 /* of the frame, for each piece of the outlines, on the average */
+#define ROWS_LEAST 20 /* rows of the frame for each piece of the outlines, on average */
 /* How many pixels beside the requested columns are compiled too, because of rounding. The number is
  * small, because many dashes may lie there. */
 #define BESIDE 0x1p-6

@@ -22,7 +22,7 @@
 #include "engine/row/plan.h"
 #include "model/scene/scene.h"
 
-#define CS_COMPILE_DASHES 4096 /* that are compiled together, except where they share a pixel */
+#define CS_COMPILE_DASHES 4096 /* the most that are compiled together if none share a pixel */
 
 /* The view of a film: its size in units, the frame's size in pixels, and the rows and columns that
  * will be asked for. Outlines wholly above or below those rows are left out, and strokes wholly
@@ -39,7 +39,7 @@ typedef struct cs_view {
    * (model/geometry/boundary.h), and objects lie at multiples of it, so that their curves are the
    * same wherever the objects have been moved. 0: curves are not kept, and objects lie anywhere. */
   celspan_point unit;
-  const size_t *cel_numbers; /* of the rostrum's cels, for messages; NULL: from 1 */
+  const size_t *cel_numbers; /* the numbers of the cels in messages; NULL: from 1 */
   size_t pieces, points;     /* about how many the outlines of a drawing have; 0: not known */
 } cs_view;
 

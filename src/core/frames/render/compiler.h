@@ -20,7 +20,7 @@ typedef struct cs_compiler_film {
   celspan_matrix to_pixels;  /* film units to pixels of the frame */
   cs_v4 shine;               /* the light that falls on it from outside: multiplies its lights; lane
                                 3 is 0 */
-  const cs_outline *outline; /* of an object's frame, film units; NULL: the whole plane */
+  const cs_outline *outline; /* around an object's frame, film units; NULL: the whole plane */
 } cs_compiler_film;
 
 /* Counts of the outlines in the frame. Outlines that are left out because they are on no requested
@@ -57,7 +57,7 @@ struct cs_compiler {
   cs_boundary_frame frame;
   cs_boundary_builder *boundaries; /* the boundaries of the plan, in the frame; shared by copies */
   double first_height, end_height; /* of the rows that will be asked for, with their margin */
-  double first_place, end_place;   /* of the columns that will be asked for */
+  double first_place, end_place;   /* columns that will be asked for */
   size_t most_dashes;              /* with more in view, the plan is crowded */
   const size_t *cel_numbers;       /* see cs_view */
   size_t cel;                      /* from 1; it and the mark are for messages */

@@ -324,7 +324,7 @@ static celspan_status place_cels(celspan_context *context, const cs_cel_parts *p
 typedef struct making {
   celspan_context *context;
   const celspan_rostrum *rostrum; /* the rostrum of the parts */
-  const celspan_rostrum *other;   /* of another exposure; NULL: there is none */
+  const celspan_rostrum *other;   /* in another exposure; NULL: there is none */
   bool repeats;                   /* see celspan_frame_desc */
   cs_cel_parts parts;
   const cs_view *view;

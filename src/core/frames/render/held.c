@@ -29,13 +29,13 @@ typedef struct store {
 typedef struct band {
   cs_hash key;
   entry *kept;               /* pinned; NULL: its rows must be made */
-  bool is_wanted;            /* its rows shall be copied */
+  bool is_wanted;            /* the rows of the band shall be copied */
   _Atomic(entry *) finished; /* the copy, which is not in the cache yet */
 } band;
 
 typedef struct cs_held {
   store *store;
-  int32_t first_row, end_row; /* of the frame, as far as its rows are asked for */
+  int32_t first_row, end_row; /* rows of the frame that are asked for */
   int32_t first_band;
   size_t count;
   atomic_size_t bytes; /* the bytes of the bands that are kept, or will be */
@@ -115,7 +115,7 @@ static void add(cs_held *held, double top, double bottom, cs_hash hash) {
 
 static void add_everywhere(cs_held *held, cs_hash hash) { add(held, -HUGE_VAL, HUGE_VAL, hash); }
 
-/* What decides the codes of colours. The space of the coding is that of the frame. */
+/* What decides the codes of colours. The coding has the space of the frame. */
 static void hash_coder(cs_hash *hash, const cs_frame *frame) {
   const cs_coder *coder = frame->coder;
   const int32_t numbers[] = {(int32_t)coder->coding.depth,

@@ -42,7 +42,7 @@ typedef struct cs_lights_front {
   celspan_matrix inverse;
 } cs_lights_front;
 
-/* Sets the front light of the layers that follow to that of a cel. Errors: BAD_ARGUMENT. */
+/* Sets the front light of the layers that follow to a cel's. Errors: BAD_ARGUMENT. */
 CELSPAN_CHECKED celspan_status cs_lights_set_front(cs_compiler *c, const celspan_rostrum *rostrum,
                                                    size_t index, const cs_compiler_film *film,
                                                    cs_lights_front *out);

@@ -12,7 +12,7 @@ typedef struct search {
   size_t least; /* shapes of a part */
   cs_cel_parts *parts;
   size_t number;                  /* the number of the cel */
-  size_t first;                   /* of its parts */
+  size_t first;                   /* where its parts begin */
   size_t count, most;             /* cels of the frame so far, and room for them */
   size_t rich_shapes, all_shapes; /* of the parts of this cel, and of the objects between them */
   bool is_sane;                   /* none of its parts is enlarged or reduced too far */

@@ -37,7 +37,7 @@ typedef struct cs_cel_parts {
   const celspan_rostrum *from;     /* borrowed */
   size_t numbers[CS_MAP_DRAWINGS]; /* the numbers of the cels that the parts belong to, from 1 */
   celspan_rostrum own;             /* the rostrum of the parts, */
-  celspan_cel *cels, **list; /* its cels: CS_MAP_DRAWINGS each, or NULL where no cel has parts */
+  celspan_cel *cels, **list; /* the parts: CS_MAP_DRAWINGS each, or NULL where no cel has parts */
 } cs_cel_parts;
 
 /* rich: the shapes of a rich object. The rostrum has at most CS_MAP_DRAWINGS cels and must outlive

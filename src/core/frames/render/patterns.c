@@ -13,7 +13,7 @@
 
 #define COPIES_EACH 4096 /* primitives in the boxes of one plane that are copied, at most */
 #define COPIES_ALL 16384 /* the same for all patterns of a frame together */
-#define FEW_BOXES 64     /* of one plane: they are copied, whatever is in them */
+#define FEW_BOXES 64     /* a plane's boxes up to this number are copied, whatever they hold */
 #define SIDE 4096        /* texels of a picture, at most */
 #define TEXELS 4194304   /* likewise */
 #define TEXELS_A_PIXEL 4 /* in each direction: their mean is as sharp as an edge */

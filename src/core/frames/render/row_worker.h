@@ -9,7 +9,7 @@
  * rows are halved until few dashes are left, and a single row into columns.
  *
  *   +-------------------+     pane 1: rows with few dashes
- * | 1 | pane 2, 3: columns of one row, each with as many as allowed, whose
+ *   |         1         |     pane 2, 3: columns of one row, each with as many as allowed, whose
  *   +---------+---------+                spans are joined
  *   |    2    |    3    |
  *   +---------+---------+

@@ -44,7 +44,7 @@ typedef struct strips {
   cs_pipeline *pipeline;
   bool has_shares;
   cs_shares shares;
-  cs_row_worker *row_workers; /* one a worker */
+  cs_row_worker *row_workers; /* one for each worker */
   void **share_workers;       /* the sink's own data for each worker, where there are shares */
   strip *ring;                /* strip i lies at i % ring_size */
   int worker_count, ring_size;

@@ -4,7 +4,7 @@
 
 #include "model/geometry/matrix.h"
 
-#define OBJECTS_LEAST 1024 /* of a list that is searched */
+#define OBJECTS_LEAST 1024 /* shorter lists are not searched */
 #define SIDE 256           /* tiles in a row, and rows of tiles, at most */
 #define WORDS (SIDE / 64)
 /* Pixels: how far a rectangle's edge may be from the edge of a tile that it covers, because of

@@ -61,13 +61,13 @@
 #define CS_CENSUS_MOST 65536
 
 typedef struct cs_census {
-  size_t shapes;       /* that were counted */
-  size_t inside;       /* those whose boxes meet the frame */
-  size_t hiding;       /* those that let no light through, wherever they are */
-  double heights;      /* of those inside: rows that each covers, summed */
+  size_t shapes;       /* shapes that were counted */
+  size_t inside;       /* shapes whose boxes meet the frame */
+  size_t hiding;       /* shapes that let no light through, wherever they are */
+  double heights;      /* the rows that each shape inside covers, summed */
   double varied, flat; /* areas of those that vary (gradients, pictures), and of the others */
   bool may_have_dashes;
-  size_t pieces, points; /* of the outlines of all shapes; unknown for strokes */
+  size_t pieces, points; /* in the outlines of all shapes; unknown for strokes */
 } cs_census;
 
 /* matrix: from the units of the objects to pixels of the frame. */
@@ -85,8 +85,8 @@ typedef struct cs_ways {
   cs_ways_forced forced;
   bool suits[CS_MAP_DRAWINGS]; /* by the index of the cel, from the rear */
   bool is_artwork[CS_MAP_DRAWINGS];
-  bool is_small[CS_MAP_DRAWINGS]; /* it has fewer shapes, and goes by a map among artwork */
-  bool mapped[CS_MAP_DRAWINGS];   /* it is drawn from its map */
+  bool is_small[CS_MAP_DRAWINGS]; /* the cel has fewer shapes, and is a map among artwork */
+  bool mapped[CS_MAP_DRAWINGS];   /* the cel is drawn from its map */
   size_t rear; /* as many cels at the rear are swept with the light behind them */
 } cs_ways;
 

@@ -45,7 +45,7 @@ typedef struct celspan_parameter {
   celspan_parameter_kind kind;
   const char *text;           /* the default, as celspan_lua_set takes a value */
   double number;              /* the default of a number; of a boolean 1 or 0 */
-  double least, most;         /* of a number; -INFINITY and INFINITY if there is no bound */
+  double least, most;         /* the range of a number; without a bound -INFINITY and INFINITY */
   const char *const *choices; /* the choices of a choice */
   size_t choice_count;
   const char *about; /* NULL: none */

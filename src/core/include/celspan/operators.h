@@ -1,5 +1,5 @@
 /* Path operators: objects whose outlines and lines are changed, as animation programs do it.
- * The conventions are those of celspan/celspan.h.
+ * The conventions of celspan/celspan.h hold.
  *
  * Every primitive of the object keeps its place, texture and name, and its contours change: the
  * outline of a shape, which is closed, or the centre line of a stroke, which keeps its width, caps,

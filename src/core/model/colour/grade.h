@@ -15,9 +15,9 @@
 #include "model/colour/keying.h"
 #include "model/colour/space.h"
 
-#define CS_GRADE_POINTS 1024    /* of a curve, at most */
-#define CS_GRADE_STEPS 256      /* of a code, at most */
-#define CS_GRADE_BORDER 0x1p-16 /* of steps: half a code of 15 bits */
+#define CS_GRADE_POINTS 1024    /* points of a curve, at most */
+#define CS_GRADE_STEPS 256      /* steps of a code, at most */
+#define CS_GRADE_BORDER 0x1p-16 /* a share of a step: half a code of 15 bits */
 #define CS_GRADE_MOST 1e12 /* between two steps, colours are clamped to this and its negative */
 
 /* A map of colours: each row makes one channel of the result from the channels of the colour and
@@ -43,7 +43,7 @@ typedef struct cs_grade {
   cs_grade_map matrix;
   cs_grade_curve curves[3];
   int steps;                /* the steps of codes; 0: none */
-  celspan_space cube_space; /* of the numbers in the table */
+  celspan_space cube_space; /* the space in which the numbers of the table are */
   cs_cube *cube;            /* NULL: none. A reference */
   cs_keying keying;         /* where it is given, there are no steps, and the alpha changes, too */
 } cs_grade;

@@ -12,8 +12,8 @@
 typedef struct cs_keying {
   bool is_given, is_luma;
   float chroma[2]; /* the chroma of the screen: Cb, Cr */
-  float along[2];  /* these, divided by the square of their length */
-  float screen[4]; /* its codes; lane 3 is 0 */
+  float along[2];  /* the chroma, divided by the square of its length */
+  float screen[4]; /* the screen's codes; lane 3 is 0 */
   float spill;     /* the part of the spill that is taken off, 0..1; not by luma */
   float from;      /* the distance or the Y up to which a colour is clear */
   float gain;      /* above that, how fast it is there; below 0 it is the other way round */

@@ -63,9 +63,9 @@ static inline double cs_power_of(const cs_power *power, double x) {
 /* ---- IEC 61966-2-1, the curve of sRGB, for x >= 0. It is a power above these limits, and a line
  * below them. */
 
-#define CS_POWER_SRGB_LIGHT 0.0031308 /* of linear light */
-#define CS_POWER_SRGB_CODE 0.04045    /* of codes in 0..1 */
-#define CS_POWER_SRGB_SLOPE 12.92     /* of the line, from light to codes */
+#define CS_POWER_SRGB_LIGHT 0.0031308 /* linear light where the line ends */
+#define CS_POWER_SRGB_CODE 0.04045    /* the code in 0..1 where the line ends */
+#define CS_POWER_SRGB_SLOPE 12.92     /* how steep the line from light to codes is */
 
 /* The base whose power is the light of a code. */
 static inline double cs_power_srgb_base(double code) { return (code + 0.055) / 1.055; }

@@ -7,7 +7,7 @@
  * configurations their matrices with six or more. */
 #define SAME 1e-4
 #define LINEAR 1e-4 /* by how much light may differ from a sum of its parts */
-#define LEAST 1e-6  /* determinants below this are those of primaries on one line */
+#define LEAST 1e-6  /* below this a determinant belongs to primaries on one line */
 
 /* Source: ITU-R BT.709 and BT.2020, SMPTE ST 2065-1 (AP0), S-2014-004 (AP1), EG 432-1 (P3). */
 const cs_known_primaries cs_primaries_known[] = {
@@ -140,7 +140,7 @@ static bool is_linear(float out[PROBES][4]) {
   return error <= LINEAR * most;
 }
 
-/* If the matrix from light is that of known primaries, these. */
+/* The known primaries that have this matrix from light. */
 static const cs_known_primaries *find_known(const double matrix[9]) {
   for (const cs_known_primaries *known = cs_primaries_known; known->name; known++) {
     double of[9], error = 0;

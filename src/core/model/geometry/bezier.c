@@ -7,7 +7,7 @@
 #include "model/geometry/matrix.h"
 #include "model/geometry/pair.h"
 
-#define HORIZON 1e-9  /* of the outline's largest |w| */
+#define HORIZON 1e-9  /* a share of the outline's largest |w| */
 #define ROOT_DEPTH 46 /* halvings: two roots that are nearer than this count as one */
 #define CLIP_DEPTH 40
 #define NOISE 4e-15 /* relative to the terms of the sum: a coefficient below this is rounding */

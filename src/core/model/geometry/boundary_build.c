@@ -1,6 +1,6 @@
 /* cs_boundary_add: contours to stretches.
  *
- * Every stage works on a piece in its canonical order, so that a curve and its reversed copy give
+ * Every step works on a piece in its canonical order, so that a curve and its reversed copy give
  * the same bits, and makes stretches from top to bottom. The stretches of a piece are then put into
  * the order of the contour.
  */

@@ -53,7 +53,7 @@ struct celspan_contours {
   celspan_point *points;
   celspan_contour *items;
   size_t point_count, point_capacity, count, capacity;
-  celspan_point begin; /* of the last contour */
+  celspan_point begin; /* where the last contour begins */
   bool is_drawing;     /* the last contour is not closed */
   bool has_failed;     /* memory ran out */
 };

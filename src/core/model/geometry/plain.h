@@ -88,7 +88,7 @@ static inline bool cs_plain_has_monotone_polygon(const cs_plain *piece) {
          (p[0][1] >= p[1][1] && p[1][1] >= p[2][1] && p[2][1] >= p[3][1]);
 }
 
-/* This and the next functions do the same as those of bezier.h with similar names. */
+/* This and the next functions do the same as functions of bezier.h with similar names. */
 bool cs_plain_canonise(cs_plain *piece);
 void cs_plain_cut_front(cs_plain *rest, double *from, double t, cs_plain *front);
 int cs_plain_extrema(const cs_plain *piece, cs_bezier_axis axis, double roots[CS_PLAIN_DEGREE]);

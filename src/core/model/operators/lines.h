@@ -14,7 +14,7 @@
 
 typedef struct cs_lines {
   cs_outline outline;
-  cs_outline_closed closed; /* of a stroke */
+  cs_outline_closed closed; /* the closed lines of a stroke */
   bool is_filled;
 } cs_lines;
 

@@ -299,7 +299,7 @@ static celspan_status join_rims(const growing *g, celspan_object *const *parts, 
   return combine(g, CELSPAN_OPERATOR_UNION, rims, celspan_object_ref(parts[0]), out);
 }
 
-/* The outline of an exclusive or is that of all its operands. */
+/* An exclusive or has the outlines of all its operands. */
 static celspan_status grow_xor(const growing *g, const cs_boolean *boolean,
                                const celspan_matrix *matrix, celspan_object **out) {
   celspan_context *context = g->context;

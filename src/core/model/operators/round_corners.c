@@ -23,7 +23,7 @@ typedef struct rounding {
 
 typedef struct piece {
   cs_bezier curve;
-  celspan_point a, b; /* its ends */
+  celspan_point a, b; /* the ends of the curve */
   double length;      /* the length of a straight side, else 0 */
 } piece;
 

@@ -15,7 +15,7 @@
 #define WITHIN 0x1p-18
 /* A stretch of an outline over an eighth of this many radians is not examined whole. */
 #define SMOOTH 16
-#define TURNS_MOST 1000 /* of the whole twist */
+#define TURNS_MOST 1000 /* turns of the whole twist */
 
 typedef struct twist {
   cs_operation operation;

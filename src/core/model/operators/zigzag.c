@@ -14,7 +14,7 @@
 #include "model/stroke/curve.h"
 
 #define RIDGES_MOST 10000
-#define POINTS_MOST 1000000 /* of one object */
+#define POINTS_MOST 1000000 /* points of one object */
 
 typedef struct zigzag {
   cs_operation operation;

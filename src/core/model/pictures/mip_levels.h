@@ -43,7 +43,7 @@ typedef struct cs_mip_levels_decoder {
   celspan_transfer transfer;
   cs_picture_alpha alpha;
   bool is_linear;     /* pixels are linear light already */
-  bool has_matrix;    /* their light has other primaries: */
+  bool has_matrix;    /* the light of the pixels has other primaries: */
   double matrix[9];   /* the matrix to celspan's, in rows */
   const float *table; /* linear light by code, NULL for floats */
   int32_t codes;

@@ -90,7 +90,7 @@ typedef struct cs_picture_moving {
   int32_t plays;               /* how often several pictures are played; 0: for ever */
   int32_t threads;             /* the threads of the encoder; its bytes do not depend on them */
   int32_t is_opaque;           /* alpha is not kept */
-  int32_t primaries, transfer; /* numbers of ITU-T H.273; 0: those of the colour */
+  int32_t primaries, transfer; /* numbers of ITU-T H.273; 0: the usual ones of the colour */
 } cs_picture_moving;
 
 /* A file to be written. Rows are interleaved channels of `depth` in the machine's byte order. */

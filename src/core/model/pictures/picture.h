@@ -21,8 +21,8 @@ typedef struct cs_picture {
   int subimage;
   /* the picture of which this is a part, a reference; NULL: this is no part */
   struct cs_picture *whole;
-  int32_t x, y, width, height; /* of a part, in pixels of the whole; width 0: all of the whole */
-  bool is_smooth;              /* its alpha is made smooth */
+  int32_t x, y, width, height; /* a part, in pixels of the whole; width 0: all of the whole */
+  bool is_smooth;              /* the alpha of the picture is made smooth */
 } cs_picture;
 
 /* desc's box, sampling, use and wrap are not part of a picture. Errors: NO_MEMORY, BAD_ARGUMENT. */

@@ -72,7 +72,7 @@ struct cs_picture_entry {
   size_t share; /* blocks that one pass over the file may make: half the budget */
   pthread_mutex_t reading;
   cs_picture_reader *reader; /* NULL while it is closed, and for a part */
-  int32_t next_strip; /* of a sequential format: the first row of blocks that has not been read */
+  int32_t next_strip;        /* in a sequential format the first row of blocks that is not read */
   const celspan_surface *surface; /* while `reading` is locked: of the picture that is loaded */
   const cs_picture *part;         /* likewise: the part that is loaded, if it is a part */
 };

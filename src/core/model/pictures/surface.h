@@ -9,7 +9,7 @@
  *      |f f f f f . . . . . . . . . . c c c c c|   floats, from the front: never past the next code
  *
  * INVARIANT: a surface has pixels or a fill function, and a stride of its rows; its values never
- * change, or its key promises that they do not. Its hash is that of its content, or of its key.
+ * change, or its key promises that they do not. Its hash is made of its content, or of its key.
  *
  * A reader is a surface whose fill function reads a file of a format of ours: it is asked for its
  * rows from top to bottom as far as that can be, and its failures keep their status and sentence.

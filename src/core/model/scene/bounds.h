@@ -10,7 +10,7 @@
  *   |  +----+     |
  *   +-------------+
  *
- * INVARIANT: a box from here is the tight one, except for that of cs_bounds_around.
+ * INVARIANT: a box from here is tight, but not the box of cs_bounds_around.
  */
 #pragma once
 

@@ -223,14 +223,14 @@ static celspan_status grow_boolean(const grower *g, celspan_object *object,
   return status;
 }
 
-/* ---------------------------------------------------------------- cores */
+/* ---------------------------------------------------------------- inner objects */
 
-/* A core in its place, and how the core is grown there. */
-typedef struct placed_core {
+/* An inner object in its place, and how it is grown there. */
+typedef struct placed_inner {
   celspan_object *object; /* borrowed */
   celspan_matrix matrix;
   cs_grow how;
-} placed_core;
+} placed_inner;
 
 /* The factor by which a matrix scales all lengths; false if it differs between directions. */
 static bool find_scale(const celspan_matrix *matrix, double *scale) {
@@ -241,11 +241,11 @@ static bool find_scale(const celspan_matrix *matrix, double *scale) {
          fabs(m[0] * m[1] + m[3] * m[4]) <= ALIKE * across;
 }
 
-/* The object inside an object with a mode, or inside a named group, may have a core. */
+/* The object inside an object with a mode, or inside a named group, may have an inner object. */
 static const celspan_object *find_inner(const celspan_object *object, celspan_matrix *matrix) {
   const cs_primitive_data *data = object->data;
   while (data->kind == CS_PRIMITIVE_DATA_BOOLEAN && data->boolean->op == CELSPAN_OPERATOR_UNION &&
-         data->boolean->operand_count == 1 && !data->boolean->core.object) {
+         data->boolean->operand_count == 1 && !data->boolean->inner.object) {
     object = data->boolean->operands[0];
     data = object->data;
     *matrix = celspan_matrix_then(*object->matrix, *matrix);
@@ -253,45 +253,45 @@ static const celspan_object *find_inner(const celspan_object *object, celspan_ma
   return object;
 }
 
-/* Whether growing an object gives the same as growing its core farther. */
-static bool find_core(const cs_grow *how, const celspan_object *object,
-                      const celspan_matrix *around, placed_core *out) {
+/* Whether growing an object gives the same as growing its inner object farther. */
+static bool place_inner(const cs_grow *how, const celspan_object *object,
+                        const celspan_matrix *around, placed_inner *out) {
   double scale;
   out->matrix = celspan_matrix_then(*object->matrix, *around);
   const cs_primitive_data *data = find_inner(object, &out->matrix)->data;
-  if (data->kind != CS_PRIMITIVE_DATA_BOOLEAN || !data->boolean->core.object)
+  if (data->kind != CS_PRIMITIVE_DATA_BOOLEAN || !data->boolean->inner.object)
     return false;
-  const cs_core *core = &data->boolean->core;
-  if ((core->join != CELSPAN_STROKE_JOIN_ROUND && core->join != how->join) ||
+  const cs_inner *inner = &data->boolean->inner;
+  if ((inner->join != CELSPAN_STROKE_JOIN_ROUND && inner->join != how->join) ||
       !find_scale(&out->matrix, &scale))
     return false;
-  out->object = core->object;
-  out->how = (cs_grow){scale * core->width + how->width, core->join};
+  out->object = inner->object;
+  out->how = (cs_grow){scale * inner->width + how->width, inner->join};
   return true;
 }
 
 celspan_status cs_grow_note(celspan_context *context, celspan_object *boolean,
                             celspan_object *object, const cs_grow *grow) {
   const celspan_matrix identity = celspan_matrix_identity();
-  placed_core core = {object, identity, *grow};
-  if (!find_core(grow, object, &identity, &core))
-    core = (placed_core){object, identity, *grow};
+  placed_inner inner = {object, identity, *grow};
+  if (!place_inner(grow, object, &identity, &inner))
+    inner = (placed_inner){object, identity, *grow};
   celspan_object *placed;
-  CS_TRY(celspan_object_transform(context, core.object, &core.matrix, &placed));
-  boolean->data->boolean->core = (cs_core){placed, core.how.width, core.how.join};
+  CS_TRY(celspan_object_transform(context, inner.object, &inner.matrix, &placed));
+  boolean->data->boolean->inner = (cs_inner){placed, inner.how.width, inner.how.join};
   return CELSPAN_OK;
 }
 
 /* ---------------------------------------------------------------- objects */
 
-/* Recursion ends: nesting is at most CS_SCENE_DEPTH, and the core of a core has other joins. After
- * an error *out is empty. */
+/* Recursion ends: nesting is at most CS_SCENE_DEPTH, and an inner object inside another has other
+ * joins. After an error *out is empty. */
 static celspan_status grow_any(const grower *g, celspan_object *object,
                                const celspan_matrix *around, wanted want, sizes *out) {
-  placed_core core;
-  if (!want.shrunk && find_core(g->how, object, around, &core)) {
-    const grower farther = {g->context, &core.how};
-    return grow_any(&farther, core.object, &core.matrix, want, out);
+  placed_inner inner;
+  if (!want.shrunk && place_inner(g->how, object, around, &inner)) {
+    const grower farther = {g->context, &inner.how};
+    return grow_any(&farther, inner.object, &inner.matrix, want, out);
   }
   const cs_primitive_data *data = cs_pattern_shape(object->data);
   celspan_status status = data->kind == CS_PRIMITIVE_DATA_BOOLEAN

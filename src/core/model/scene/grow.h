@@ -8,9 +8,9 @@
  *     a difference    what the first grows to, without what the       '-----------'
  *                     others shrink to
  *
- * What an outline was added to is present where that object is, grown: its core. The outline of an
- * outline with the same joins, or of one with round joins, is made of the core, by both widths
- * together, so that outlines around each other do not multiply.
+ * An outline is present wherever its inner object is, grown. The outline of an outline with the
+ * same joins, or of one with round joins, is made of that object, by both widths together, so that
+ * outlines around each other do not multiply.
  *
  * INVARIANT: the result is a tree of vector shapes, exact at every size. Where the outlines of the
  * operands of an intersection or a difference cross, the result has the corner in which the grown

@@ -20,7 +20,7 @@
 #define MOST_PRODUCT (3 * MOST_DEGREE)
 #define HALVINGS 52
 #define SAME 1e-12     /* distances that differ by less are the same */
-#define ROUNDING 1e-12 /* of a radius, in the derivative of the radius */
+#define ROUNDING 1e-12 /* a share of a radius, in its derivative */
 /* sine: a spoke at the end of a piece belongs to the piece, and to its neighbour, too */
 #define AT_REST 1e-9
 

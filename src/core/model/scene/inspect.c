@@ -15,7 +15,7 @@ typedef struct listener {
   bool (*report)(void *user, const celspan_fault *fault);
   void *user;
   size_t cel, primitive;    /* the place that the walk has reached */
-  const celspan_cel *named; /* likewise */
+  const celspan_cel *named; /* the named cel that the walk has reached */
   celspan_status first;     /* the status of the first fault */
   char sentence[CS_ERROR_SIZE];
 } listener;

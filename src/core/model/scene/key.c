@@ -6,7 +6,7 @@
 #include "model/scene/primitive_data.h"
 #include "model/scene/value.h"
 
-#define GREY (1.0 / 64) /* of a code: the least length of a chroma that is a hue */
+#define GREY (1.0 / 64) /* the least length of a chroma that is a hue: part of a code */
 
 static const float green[3] = {0, 0.49693304f, 0}; /* #0b0 */
 

@@ -40,10 +40,10 @@ typedef struct cs_noise {
   double gain;
   int seed;
   double at;  /* cells of the first octave */
-  bool fades; /* octaves finer than pixels do */
+  bool fades; /* octaves that are finer than pixels fade */
 } cs_noise;
 
-/* One octave of a noise: its cells are those of the first octave times `scale`, then moved. */
+/* One octave of a noise: its cells are the first octave's times `scale`, then moved. */
 typedef struct cs_noise_octave {
   double scale, shift_x, shift_y;
   uint32_t seed;

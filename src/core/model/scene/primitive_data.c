@@ -107,7 +107,7 @@ static void free_boolean(cs_boolean *boolean, cs_memory *memory) {
   if (boolean) {
     cs_operands_finish(&boolean->view);
     celspan_grade_unref(boolean->grade);
-    celspan_object_unref(boolean->core.object);
+    celspan_object_unref(boolean->inner.object);
   }
   cs_mem_free(memory, boolean, sizeof *boolean);
 }

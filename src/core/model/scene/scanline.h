@@ -26,7 +26,7 @@ struct celspan_scanline_output {
   celspan_context *context;
   const celspan_scanline_desc *desc;
   double y;
-  celspan_status status; /* of the first span that was refused, even if the procedure ignored it */
+  celspan_status status; /* why the first span was refused, even if the procedure ignores it */
   size_t emitted;        /* spans given on this row, empty ones and those out of bounds too */
   double last_x1;        /* the end of the previous span */
   cs_scanline_span *spans;

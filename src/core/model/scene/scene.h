@@ -44,7 +44,7 @@ typedef struct cs_light {
   celspan_light coded;      /* the same light where codes are mixed: converted if it is a colour */
   celspan_texture *texture; /* NULL: flat */
   double gain;              /* the factor of the texture; 0 without a texture */
-  celspan_light_place on;   /* likewise */
+  celspan_light_place on;   /* where the texture lies; 0 without one */
   double matte;             /* the factor of the texture's beta; 0 without a texture */
 } cs_light;
 
@@ -87,11 +87,11 @@ typedef enum cs_primitive_data_kind {
 
 /* A known fact about where a boolean is present: it is present wherever `object`, grown by `width`,
  * is present (model/scene/grow.h). */
-typedef struct cs_core {
+typedef struct cs_inner {
   celspan_object *object; /* in the boolean's units; NULL: nothing is known. A reference */
   double width;
   celspan_stroke_join join;
-} cs_core;
+} cs_inner;
 
 /* The values that only booleans have. A group is a union, and so is an object with a mode of its
  * own. */
@@ -107,7 +107,7 @@ typedef struct cs_boolean {
   bool inverts;              /* MATTE: the strength is 1 minus the usual one */
   bool dissolves;            /* MATTE: what the strength and the alpha decide is all or nothing */
   bool is_filled;            /* CLIP: the plane of a pattern, and the primitive that it fills */
-  cs_core core;              /* of an outline; not in the hash, because it changes no pixel */
+  cs_inner inner;            /* inside an outline; not in the hash: it changes no pixel */
   cs_operands view;          /* keeps the operands */
   celspan_object **operands; /* the operands of the view */
   size_t operand_count;
@@ -150,10 +150,10 @@ typedef struct cs_primitive_data {
                                rostrum */
   uint8_t mixing;           /* a cs_mixing */
   bool has_modes;           /* a mode is in this object or below it, except inside a rostrum */
-  bool is_box;              /* the outline is that of `box`, which has an area */
+  bool is_box;              /* the outline is `box`, which has an area */
   int16_t depth;            /* levels of booleans and rostrums, with this object */
   uint16_t shape_count;     /* as primitive_count, but a mesh is one shape; 65535 at most */
-  uint16_t cut_count;       /* the cut count of these, the primitives that a difference cuts away */
+  uint16_t cut_count;       /* how many primitives a difference cuts away */
   uint32_t primitive_count; /* primitives of the tree; a shared one counts each time */
   celspan_texture *texture; /* OUTLINE; never NULL */
   /* all kinds except BOOLEAN: own units; tight, but the bounds of a stroke only where tight
@@ -275,7 +275,7 @@ struct celspan_rostrum {
   cs_antialias antialias;
   celspan_space space;
   celspan_grade *grade;   /* the grade of the whole; NULL: none. A reference */
-  celspan_texture *grain; /* over all of it; NULL: none. A reference */
+  celspan_texture *grain; /* the grain over the whole frame; NULL: none. A reference */
 };
 
 /* Whether any cel of a rostrum acts on its backdrop, in a space. */

@@ -50,7 +50,7 @@ typedef struct cs_texture_variation {
   size_t stop_count;
   cs_noise noise;                 /* NOISE */
   celspan_spread spread;          /* LINEAR, RADIAL; HOLD in textures of primitives and lights */
-  bool has_matrix;                /* not singular: */
+  bool has_matrix;                /* the texture has one, which is not singular: */
   celspan_matrix matrix, inverse; /* from the texture's units to the primitive's */
   celspan_texture *origin;        /* the texture before unrolling, a reference; NULL: none */
   cs_picture *picture;            /* PICTURE */
@@ -62,7 +62,7 @@ typedef struct cs_texture_variation {
   celspan_box box; /* where has_box; else the primitive's tight bounds. PATTERN: the repeated box */
   celspan_rostrum *tile; /* PATTERN: one box of it; a reference */
   cs_hash tile_hash;
-  const cs_texture_tile_calls *calls; /* of the tile; NULL: there is none */
+  const cs_texture_tile_calls *calls; /* how the tile is asked; NULL: there is none */
 } cs_texture_variation;
 
 struct celspan_texture {

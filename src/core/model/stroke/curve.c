@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#define POINT 1e-13 /* of the coordinates: a line of at most this length is a point */
+#define POINT 1e-13 /* share of the coordinates: a line of at most this length is a point */
 
 /* ---------------------------------------------------------------- parts */
 

@@ -20,7 +20,7 @@
 #define THIN 0.04
 /* pixels: sides that are closer than this are the same curve, wherever they are drawn */
 #define HAIR 1e-4
-#define RESTING 0.02   /* of the speed at the other end */
+#define RESTING 0.02   /* a share of the speed at the other end */
 #define HALF_TURN 1e-9 /* sine: a turn nearer to a half turn counts as one */
 #define ROOT_STEPS 100
 
@@ -211,7 +211,7 @@ static celspan_point pivot_of(const fan *f, int i) {
   return cs_spoke_add(f->spokes[i].centre, f->motions[i].pivot, f->spokes[i].direction);
 }
 
-/* Whether all pivots are one point, as those of a circle: their motion is only rounding, and
+/* Whether all pivots are one point, as in a circle: their motion is only rounding, and
  * following it would cut the curve into thousands of pieces between which light leaks. */
 static bool is_round(const cs_side *side, const fan *f) {
   const celspan_point first = pivot_of(f, 0);

@@ -3,7 +3,7 @@
 #include "model/geometry/matrix.h"
 #include "model/stroke/outliner.h"
 
-#define SHARE 8   /* of the memory for maps, one part in this many */
+#define SHARE 8   /* the memory for maps is one part in this many */
 #define WIDE 1e12 /* pixels: everywhere */
 #define MOST 1024 /* pieces of the line and dashes */
 
@@ -72,7 +72,7 @@ static celspan_status make(void *user, celspan_context *context, cs_cache_entry 
 }
 
 static cs_cache_key key_of(const order *o) {
-  static const int turns[] = {0, 1, 3, 4}; /* of a matrix: all but its translation */
+  static const int turns[] = {0, 1, 3, 4}; /* the numbers of a matrix without its translation */
   cs_hash hash = o->stroke->hash;
   for (int i = 0; i < 4; i++)
     cs_hash_number(&hash, o->view.matrix.m[turns[i]]);

@@ -4,7 +4,7 @@
  *   frame 2, pan 20 px   --acquire (stroke, scale and turn)--> found ---+--> one outline
  *
  * A context has one such cache, which all its threads and frames share, of an eighth of the memory
- * for maps; without memory for maps nothing is kept. The invariants are those of base/cache.h.
+ * for maps; without memory for maps nothing is kept. The invariants of base/cache.h hold.
  *
  * INVARIANT: an outline depends on the stroke and on the matrix without its translation alone, also
  * where nothing is kept, and for every part of the frame that is asked for.

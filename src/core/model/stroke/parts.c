@@ -127,7 +127,7 @@ celspan_status cs_stroke_divide(celspan_context *context, cs_stroke *stroke,
 
 /* ---------------------------------------------------------------- line */
 
-#define SETTLED 1e-14 /* of the coordinates */
+#define SETTLED 1e-14 /* a share of the coordinates */
 
 /* ---------------------------------------------------------------- what is given */
 

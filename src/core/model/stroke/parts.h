@@ -24,7 +24,7 @@
 typedef struct cs_stroke_raw {
   cs_outline line, widths;
   cs_outline_closed closed; /* contours */
-  double width;             /* without widths */
+  double width;             /* the width of a line without widths */
 } cs_stroke_raw;
 
 /* Errors: NO_MEMORY, BAD_ARGUMENT, LIMIT. cs_stroke_raw_finish frees it, also after an error. */

@@ -3,7 +3,7 @@
 #define PI 3.14159265358979323846
 #define ARC_DEPTH 20
 #define ARC_WORST 0.2113 /* parameter at which a cubic is farthest from its arc */
-#define SAME 1e-3        /* of the allowed error: pivots that are closer count as one */
+#define SAME 1e-3        /* share of the allowed error: pivots that are closer count as one */
 
 void cs_side_init(cs_side *side, celspan_context *context, const cs_stroke_view *view,
                   cs_outline *outline) {

@@ -8,7 +8,7 @@
 #define NEAR 1e-5 /* parameter: the distance of such a neighbour */
 /* of the two terms whose difference is the pace: a smaller difference is rounding */
 #define REST 1e-11
-#define ROUNDING 1e-15 /* of coordinates */
+#define ROUNDING 1e-15 /* a share of the coordinates */
 
 cs_spoke cs_spoke_make(celspan_point centre, double radius, celspan_point tangent, double slope) {
   double k = cs_number_clamp(slope, -1, 1), across = sqrt(1 - k * k);

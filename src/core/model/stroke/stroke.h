@@ -31,7 +31,7 @@ typedef struct cs_stroke_part {
   uint32_t first;    /* the piece in which the part begins */
   uint32_t count;    /* the count of pieces */
   double begin, end; /* parameters, in the first and in the last piece */
-  bool is_closed;    /* its end is its beginning: the part has no caps */
+  bool is_closed;    /* the part ends where it begins, and has no caps */
 } cs_stroke_part;
 
 /* The dashes of a contour (dashes.h). */
@@ -45,7 +45,7 @@ typedef struct cs_dashes_run {
    * before */
   double start;
   double from, to; /* the lengths of the line between which the run is drawn */
-  size_t first;    /* its first dash, counted from `start` */
+  size_t first;    /* the first dash of the run, counted from `start` */
   size_t begin;    /* the number of its first part */
 } cs_dashes_run;
 
@@ -65,7 +65,7 @@ typedef struct cs_stroke {
   double *radii;
   uint32_t *radius_starts;
   uint8_t *radius_degrees;
-  cs_stroke_part *parts; /* without dashes */
+  cs_stroke_part *parts; /* the parts of a line without dashes */
   cs_dashes dashes;      /* place_count 0: the stroke has no dashes */
   size_t radius_count, radius_capacity, radius_start_capacity, radius_degree_capacity;
   size_t part_count, part_capacity; /* part_count: includes dashes */
@@ -115,7 +115,7 @@ typedef struct cs_stroke_view {
   cs_boundary_frame frame;
   double tolerance;   /* pixels */
   double top, bottom; /* the top and bottom of the rows that are asked for, pixels */
-  double left, right; /* of the columns that are asked for, in pixels */
+  double left, right; /* columns that are asked for, in pixels */
 } cs_stroke_view;
 
 /* How far from their place, in pixels, the contents of a box may be drawn. */

@@ -10,7 +10,7 @@
 
 /* ---------------------------------------------------------------- the grid */
 
-/* The index of point (i, j); the first and the last i and j are those of the rim. */
+/* The index of point (i, j); the first and the last i and j belong to the rim. */
 static size_t place(const cs_warp_mesh *mesh, size_t i, size_t j) {
   return j * (mesh->columns + 1) + i;
 }

@@ -18,8 +18,8 @@ enum {
   CS_DEFLATE_SEARCH_PENDING = 1 << 17, /* bytes that are collected before they are searched */
   CS_DEFLATE_SEARCH_SPACE = 4096,      /* bytes that may be added at once */
   CS_DEFLATE_SEARCH_SLACK = 64,        /* bytes read or written beyond the end, without meaning */
-  CS_DEFLATE_SEARCH_LONG_BITS = 15,    /* of the hash of eight bytes */
-  CS_DEFLATE_SEARCH_SHORT_BITS = 14    /* of the hash of four bytes */
+  CS_DEFLATE_SEARCH_LONG_BITS = 15,    /* bits in the hash of eight bytes */
+  CS_DEFLATE_SEARCH_SHORT_BITS = 14    /* bits in the hash of four bytes */
 };
 
 /* A position is a count of all bytes ever added, modulo 2^32, from 1 on; 0 in a table means no

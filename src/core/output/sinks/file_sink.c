@@ -31,7 +31,7 @@ typedef struct guard {
   size_t allocated;
   int32_t width, height;  /* 0 until a begin has succeeded */
   int32_t rows;           /* rows that were put */
-  celspan_status failure; /* of the first call that failed; after it only `end` may be called */
+  celspan_status failure; /* the first call's that failed; after it only `end` is allowed */
   bool has_shares;        /* rows are put into shares, and not through the guard */
   bool takes_codes;
   char path[];

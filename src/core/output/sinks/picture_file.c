@@ -5,7 +5,7 @@
 
 #include "model/pictures/store.h"
 
-#define MOST_THREADS 16 /* of an encoder, which has no use for more */
+#define MOST_THREADS 16 /* an encoder has no use for more */
 
 /* If writing the file failed, its own error is more precise than the module's. */
 static celspan_status report(const cs_picture_file *file, celspan_context *context,

@@ -12,7 +12,7 @@
 #include "output/sinks/file.h"
 
 /* A film in AVIF has 16 bits for a side, and readers refuse more pixels, as they would need too
- * much memory. The factor is that of quality 75 in videos. A WebP has 14 bits. */
+ * much memory. Videos of quality 75 have this factor, too. A WebP has 14 bits. */
 #define CS_AVIF_SIDE 65535
 #define CS_AVIF_PIXELS ((int64_t)1 << 28)
 #define CS_AVIF_CRF 24

@@ -28,7 +28,7 @@ typedef struct file_format {
   int32_t side;        /* pixels, at most */
   int64_t pixels;      /* width times height at most; 0: any */
   int channels;        /* 4, or 3: the frame over black */
-  celspan_depth depth; /* by default */
+  celspan_depth depth; /* the depth unless another is given */
   unsigned depths;     /* a bit for each depth that the format supports */
   bool is_film;        /* ten bits and Cineon by default */
   bool is_multiplied;  /* alpha is always premultiplied */

@@ -21,7 +21,7 @@ static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "pixels are written lit
 enum {
   CHUNK = 64,          /* pixels that are coded together */
   CURVE_TOGETHER = 16, /* numbers of which the vector code is quicker */
-  MOST_BYTES = 16      /* of a pixel */
+  MOST_BYTES = 16      /* bytes of a pixel */
 };
 
 size_t celspan_coding_pixel_size(const celspan_coding *coding) {

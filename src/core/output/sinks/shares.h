@@ -52,7 +52,7 @@ bool cs_png_sink_shares(const celspan_sink *sink, cs_shares *out);
 bool cs_span_sink_shares(const celspan_sink *sink, cs_shares *out);
 /* The sink for which this one codes (output/sinks/coder.h); any other sink is its own. */
 const celspan_sink *cs_coder_sink_inner(const celspan_sink *sink);
-/* Makes of the shares of that sink those of this one. */
+/* Turns the shares of that sink into shares of this one. */
 void cs_coder_sink_shares(const celspan_sink *sink, cs_shares *shares);
 /* The coder of a sink of each kind (output/sinks/coder.h); NULL: the sink is of another kind.
  * cs_sink_coder calls all these functions. */

@@ -30,7 +30,7 @@ typedef struct tga_sink {
   size_t pixel_size; /* 3 without alpha, otherwise 4 */
   int32_t width;
   unsigned char *row; /* packets of a row; from begin to end */
-  size_t size;        /* of those packets, in bytes */
+  size_t size;        /* bytes of those packets */
   uint32_t run_pixel;
   int32_t run_count; /* pixels not yet in a packet */
   size_t plain_head; /* where the last plain packet begins, which can still grow */

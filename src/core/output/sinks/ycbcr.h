@@ -6,7 +6,7 @@
  * where Y is the sum in brackets, and R, G and B are codes as they are, sRGB or other.
  *
  *   4:4:4   a pixel, a colour          4:2:0   y y   the colour of four pixels is
- *                                              y y   that of their mean: one cb, one cr
+ *                                              y y   from their mean: one cb, one cr
  *
  * INVARIANT: every number is the exact one rounded to nearest, except that sums in float may take
  * one that lies within 2^-14 of a half to either side.

@@ -255,7 +255,7 @@ static void output_folder(const cs_request *request, char out[PATH_SIZE]) {
 static bool add_own_folders(const cs_request *request, cs_roots *read) {
   static const char *const variables[] = {"OCIO",
                                           "CELSPAN_PICTURE_MODULE",
-                                          "CELSPAN_ART_MODULE",
+                                          "CELSPAN_TYPE_MODULE",
                                           "CELSPAN_COLOUR_MODULE",
                                           "CELSPAN_SPACE_MODULE",
                                           "CELSPAN_PDF_MODULE"};

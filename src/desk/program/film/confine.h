@@ -6,7 +6,7 @@
 #include "lua/sandbox/sandbox.h"
 #include "program/options/request.h"
 
-enum { CS_FONT_FOLDERS = 2 }; /* of the user */
+enum { CS_FONT_FOLDERS = 2 }; /* folders that belong to the user */
 
 /* The rights of a script. */
 typedef struct cs_confined {

@@ -7,7 +7,7 @@
 #include "lua/bind/host.h"
 #include "lua/bind/put.h"
 #include "lua/bind/userdata.h"
-#include "lua/module/core.h"
+#include "lua/module/native.h"
 #include "lua/nouns/pixel_string.h"
 #include "plugins/footage/movie.h"
 
@@ -89,9 +89,9 @@ static int open_movie(lua_State *L) {
 
 void cs_movies_give(lua_State *L) {
   lua_pushcfunction(L, open_movie);
-  lua_setfield(L, LUA_REGISTRYINDEX, CS_CORE_MOVIE);
+  lua_setfield(L, LUA_REGISTRYINDEX, CS_NATIVE_MOVIE);
   lua_pushcfunction(L, cs_movies_is);
-  lua_setfield(L, LUA_REGISTRYINDEX, CS_CORE_IS_MOVIE);
+  lua_setfield(L, LUA_REGISTRYINDEX, CS_NATIVE_IS_MOVIE);
 }
 
 int cs_movies_is(lua_State *L) {

@@ -4,7 +4,7 @@
 #include <lua.h>
 
 /* Gives the scripts of a state, which has a context, the function that opens movies
- * (CS_CORE_MOVIE), for lua/celspan/read/footage.lua. Raises. */
+ * (CS_NATIVE_MOVIE), for lua/celspan/read/footage.lua. Raises. */
 void cs_movies_give(lua_State *L);
 /* is_movie(path) -> whether a file has the first bytes of a movie */
 int cs_movies_is(lua_State *L);

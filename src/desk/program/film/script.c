@@ -15,8 +15,8 @@
 #include "lua/bind/named.h"
 #include "lua/bind/userdata.h"
 #include "lua/bind/warnings.h"
-#include "lua/module/core.h"
 #include "lua/module/lua_script.h"
+#include "lua/module/native.h"
 #include "lua/module/parameters.h"
 #include "plugins/sound/loudness.h"
 #include "plugins/sound/sound.h"
@@ -28,7 +28,7 @@
 #include "program/options/request.h"
 #include "program/report/text_file.h"
 
-/* The states that a signal interrupts: that of the verb, and that of the script that ran last;
+/* The states that a signal interrupts: the verb's, and the state of the script that ran last;
  * NULL: none. */
 static lua_State *volatile states[2];
 
@@ -65,7 +65,7 @@ static void watch_script(lua_State *L) {
 typedef struct script_settings {
   const cs_request *request; /* borrowed */
   const char *path;          /* the path of --set-from; NULL: it was not given */
-  cs_text_file json;         /* its text */
+  cs_text_file json;         /* the text of that file */
 } script_settings;
 
 /* Reads the file of --set-from before the script's rules forbid this. OK, or reported; *out may be
@@ -180,9 +180,9 @@ static int hear_spectrum(lua_State *L) {
  * spectrum of files, for lua/celspan/read/sound.lua. Raises. */
 static void give_sounds(lua_State *L) {
   lua_pushcfunction(L, hear);
-  lua_setfield(L, LUA_REGISTRYINDEX, CS_CORE_HEAR);
+  lua_setfield(L, LUA_REGISTRYINDEX, CS_NATIVE_HEAR);
   lua_pushcfunction(L, hear_spectrum);
-  lua_setfield(L, LUA_REGISTRYINDEX, CS_CORE_SPECTRUM);
+  lua_setfield(L, LUA_REGISTRYINDEX, CS_NATIVE_SPECTRUM);
 }
 
 /* ---------------------------------------------------------------- the state */

@@ -13,14 +13,14 @@
 typedef struct cs_script {
   celspan_context *context; /* borrowed */
   lua_State *L;             /* owned; NULL: not open */
-  cs_film_info film;        /* its texts live as long as the state */
+  cs_film_info film;        /* the texts live as long as the state */
   int64_t number;           /* the number of the frame built last */
   cs_film_frame frame;      /* that frame; owned */
   cs_hash given;            /* the hash of its arguments and the values of its parameters */
-  bool is_trusted;          /* it has the whole of Lua */
+  bool is_trusted;          /* the script has the whole of Lua */
   bool asks_files;          /* the paths that it asks for are remembered */
   bool asks_warnings;       /* warnings are kept */
-  bool is_silent;           /* its printed text is not shown */
+  bool is_silent;           /* what the script prints is not shown */
   cs_sandbox *sandbox;      /* the sandbox of the state; NULL: the whole of Lua without limits */
 } cs_script;
 

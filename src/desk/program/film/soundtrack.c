@@ -49,7 +49,7 @@ celspan_status cs_soundtrack_mix(cs_script *script, int64_t first, int64_t count
   return open_track(script, &track, first, *moments, out);
 }
 
-/* Mixes one stem. The other sounds are silent, but lower those of the stem as in the whole mix. */
+/* Mixes one stem. The other sounds are silent, but lower the stem as in the whole mix. */
 static celspan_status mix_stem(cs_script *script, int64_t first, int64_t moments, const char *stem,
                                cs_sound_stream *out) {
   cs_heard track;

@@ -18,7 +18,7 @@ static int32_t draft_side(int32_t side) {
   return half + half % 2;
 }
 
-/* Of a drawing, --scale is that of pictures in it. */
+/* In a drawing, --scale applies to pictures in it. */
 static bool is_drawing(const cs_request *request) {
   return request->output && cs_output_lists(request->output->takes, "--flat");
 }

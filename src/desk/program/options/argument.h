@@ -62,7 +62,7 @@ typedef struct cs_given_limits {
 typedef struct cs_argument {
   const char *allowed; /* the allowed values, for messages: "--size: '12' is not ..." */
   bool (*read)(const struct cs_argument *kind, const char *text, void *field);
-  double least, most; /* of a number, and of each number in a list */
+  double least, most; /* bounds of a number, and of each number in a list */
   char separator;     /* the separator of two numbers or more */
   const struct cs_choice *choices;
 } cs_argument;

@@ -27,7 +27,7 @@ static void start_json(size_t frame_count) {
   cs_report_event(&event);
 }
 
-/* A log may be that of many runs: a line of their beginning and their end says which. */
+/* A log may belong to many runs: a line of their beginning and their end says which. */
 static void log_run(const cs_progress *progress, const char *what, const char *how) {
   bool has_output = progress->output != NULL;
   cs_report_log("%s: %s%s%s", what, has_output ? progress->output : "", has_output ? ": " : "",

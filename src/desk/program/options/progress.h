@@ -17,8 +17,8 @@
 typedef struct cs_progress {
   cs_progress_style style; /* never AUTO once started */
   size_t frame_count, frames_done;
-  size_t copied, kept;   /* of the finished frames */
-  const char *noun;      /* of the counted items: "frame", unless it is changed after the start */
+  size_t copied, kept;   /* finished frames that were copied, or kept */
+  const char *noun;      /* what is counted: "frame", unless it is changed after the start */
   const char *output;    /* the output of -o, for the log; NULL: there is none */
   double started, shown; /* seconds of the monotonic clock */
   double pause;          /* the least seconds between two lines, or between two states of the bar */
@@ -26,7 +26,7 @@ typedef struct cs_progress {
 
 /* From now on diagnostics have the form for this style. */
 void cs_progress_choose(cs_progress_style style);
-/* style: that of a request without --progress. */
+/* style: the style of a request without --progress. */
 void cs_progress_start(cs_progress *progress, const cs_request *request, cs_progress_style style,
                        size_t frame_count);
 /* share: of the frames that are being made, in frames. Returns false after a signal to stop. */

@@ -35,8 +35,8 @@ static cs_exit refuse_unknown(const cs_verb *verb, const char *name) {
 typedef struct reading {
   const cs_request *request;
   size_t next;             /* word */
-  const cs_option *option; /* that was read last; NULL: an operand */
-  const char *text;        /* its value, NULL for a flag; or the operand */
+  const cs_option *option; /* the option that was read last; NULL: an operand */
+  const char *text;        /* the value of the option, NULL for a flag; or the operand */
 } reading;
 
 /* "-" alone is a file, and "-3" a number; neither is an option. */

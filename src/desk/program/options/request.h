@@ -13,7 +13,7 @@
 
 typedef struct cs_option {
   const char *name;
-  const char *value;       /* its name in the help; NULL: a flag */
+  const char *value;       /* how the help calls the value; NULL: a flag */
   const cs_argument *kind; /* the kind of the value; NULL: a flag */
   const char *help;
 } cs_option;
@@ -23,10 +23,10 @@ typedef struct cs_verb {
   const char *operands; /* as the help shows them */
   size_t operand_least, operand_most;
   bool is_hidden;      /* the help does not list it */
-  bool has_script;     /* it runs a script, which gets the arguments after "--" */
-  bool makes_folder;   /* its -o names one */
-  bool asks_files;     /* it needs to know which files its script has read */
-  bool asks_warnings;  /* it wants warnings about probable mistakes of the author */
+  bool has_script;     /* the verb runs a script, which gets what follows "--" */
+  bool makes_folder;   /* -o names a folder */
+  bool asks_files;     /* the verb asks which files its script has read */
+  bool asks_warnings;  /* the verb asks for warnings about probable mistakes */
   bool runs_again;     /* other processes run its script, too, or it is run again after changes */
   bool runs_others;    /* it runs chunks in Lua that are neither scripts nor celspan's own */
   bool plans_rows;     /* it plans runs of another verb, which make the rows and write the log */
@@ -39,7 +39,7 @@ typedef struct cs_verb {
  * verb. */
 typedef struct cs_request {
   const cs_verb *verb;
-  char *const *words; /* after the verb */
+  char *const *words; /* the words after the verb */
   size_t word_count;
   const char *operands[CS_OPERANDS_MAX];
   size_t operand_count;
@@ -49,7 +49,7 @@ typedef struct cs_request {
   size_t script_argument_count;
   const struct cs_spaces *spaces; /* NULL: colours are coded along a curve */
   const struct cs_output *output; /* the row of -o (output.h); NULL: there is none, or not known */
-  cs_given_antialias antialias;   /* of --antialias; it is kept here because frames point to it */
+  cs_given_antialias antialias;   /* from --antialias; kept here because frames point to it */
 } cs_request;
 
 /* words: the words after the verb. OK, or reported and CS_EXIT_USAGE. */

@@ -19,11 +19,11 @@ typedef struct cs_into {
   const celspan_frame_desc *frame; /* the view */
   const cs_sequence *frames;
   const cs_sequence *played; /* the frames whose sound is heard */
-  const char *chapters;      /* of a video, as in cs_video_extras; NULL: none */
-  const char *captions;      /* of a video, in the form of its format; NULL: none */
+  const char *chapters;      /* chapters in a video, as in cs_video_extras; NULL: none */
+  const char *captions;      /* subtitles in a video, in the form of its format; NULL: none */
   bool keeps_nothing;
-  bool has_noted; /* that a page has a picture */
-  cs_slots raw;   /* of standard output; none: frames are written in rows */
+  bool has_noted; /* it was noted that a page has a picture */
+  cs_slots raw;   /* for standard output; none: frames are written in rows */
   cs_video video;
   cs_plane_film *plane;
   cs_plot *pages;
@@ -35,7 +35,7 @@ typedef struct cs_outlet {
   bool is_file; /* which all frames share */
   cs_exit (*open)(cs_into *into);
   celspan_status (*put)(void *into, const cs_shoot_put *one);
-  /* For those that are made in slots. */
+  /* Only outlets whose frames are made in slots have it. */
   size_t (*slots)(const cs_into *into);
   celspan_status (*give)(void *into, size_t slot);
   celspan_status (*repeat)(void *into);

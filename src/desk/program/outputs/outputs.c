@@ -147,7 +147,7 @@ static bool is_made(const cs_output *output, const cs_request *request) {
          (is_apart || !output->layers);
 }
 
-/* Whether a name that a picture has, too, is of a film. */
+/* Whether a name that could be a picture's is the name of a film. */
 static bool is_film(const cs_output *output, const char *path, size_t frames) {
   return !cs_sequence_has_number(path) && (frames != 1 || output->codes_stills);
 }

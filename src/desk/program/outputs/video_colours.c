@@ -9,7 +9,7 @@
 #include "inside/elementary.h"
 #include "program/film/spaces.h"
 
-/* By how much a code may differ from that of the curve: half a step of 8 bits. */
+/* By how much a code may differ from the curve: half a step of 8 bits. */
 #define SAME (0.5 / 255)
 
 /* ---------------------------------------------------------------- spaces */

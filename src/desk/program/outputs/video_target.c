@@ -26,7 +26,7 @@ static const cs_video_codec *codec_of(const cs_request *request) {
   return cs_video_codec_named(format_of(request), cs_request_text(request, "--codec"));
 }
 
-/* Frames of 8 bits are dithered unless that is not wanted; ffmpeg dithers those of few colours. */
+/* Frames of 8 bits are dithered unless that is not wanted; ffmpeg dithers frames of few colours. */
 static bool is_dithered(const cs_request *request, const cs_video_codec *codec) {
   bool is_default = !cs_request_has(request, "--no-dither") && !codec->is_indexed;
   return cs_request_has(request, "--dither") || is_default;

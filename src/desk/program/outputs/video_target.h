@@ -8,7 +8,7 @@
 #include "program/film/script.h"
 #include "video/video.h"
 
-/* Refuses what the codec does not have. OK, or reported. path: that of -o. */
+/* Refuses what the codec does not have. OK, or reported. path: the path of -o. */
 cs_exit cs_video_target_refuse(celspan_context *context, const cs_request *request,
                                const char *path);
 /* Refuses frames of a size, or a rate, that the codec does not have. OK, or reported. */

@@ -13,8 +13,8 @@
 enum {
   SENTENCE = 8192,        /* bytes; paths may be 4096 long */
   VISIBLE = 5 * SENTENCE, /* the greatest size of a sentence after make_visible */
-  PIECE = 1024, /* of a printed line, which fits into an event, however it is written there */
-  SHOWN = 5     /* of the longest text for one character, with a zero */
+  PIECE = 1024,           /* bytes of a printed line; it fits into an event in any form */
+  SHOWN = 5               /* bytes of the longest text for one character, with a zero */
 };
 
 static void (*clear_line)(void);

@@ -187,7 +187,7 @@ static void open_libraries(lua_State *L, celspan_context *context, bool has_othe
     cs_require_push_globals(L);
     luaL_newlib(L, opening);
     lua_pushvalue(L, -1);
-    lua_setmetatable(L, -3); /* of these globals, and of those of the state */
+    lua_setmetatable(L, -3); /* for these globals, and for those of the state */
     lua_setmetatable(L, 1);
     lua_settop(L, 0);
   }

@@ -18,7 +18,7 @@
 #include "lua/bind/require.h"
 #include "lua/bind/userdata.h"
 #include "lua/bind/warnings.h"
-#include "lua/module/core.h"
+#include "lua/module/native.h"
 #include "lua/module/subtitles.h"
 #include "process/interrupt.h"
 #include "program/film/change.h"
@@ -96,7 +96,7 @@ static int at(lua_State *L) {
   return push_frame(L, &f->script.frame);
 }
 
-/* script:exposures() -> those of the frame that was built last */
+/* script:exposures() -> the exposures of the frame that was built last */
 static int exposures(lua_State *L) { return push_frame(L, &self(L)->script.frame); }
 
 /* script:chosen() -> the exposures of the frame of --frame, or of the first frame; and its number

@@ -43,7 +43,7 @@ typedef struct run {
   celspan_frame_desc view;
   celspan_coding coding;
   cs_frame_change change;
-  cs_file_contents contents; /* of the file of the outlet */
+  cs_file_contents contents; /* what the file of the outlet holds */
   bool asks, tells;          /* the table has the functions `keep`, `finished` */
   bool has_digests, has_noted, has_raised;
   int ended; /* the exit code with which `finished` ended the run; 0: it did not */
@@ -54,9 +54,9 @@ typedef struct run {
 /* A frame that the table of the run is asked about. */
 typedef struct question {
   cs_shoot_frame *frame;
-  int code;    /* of the frame that failed, which is reported */
-  bool answer; /* of `keep` */
-  int end;     /* of `finished`: -1: the frame is good; 0: it failed; or the end of the run */
+  int code;    /* how the frame failed, for the report */
+  bool answer; /* what `keep` has answered */
+  int end;     /* what `finished` gives: -1: good; 0: failed; or the run's end */
 } question;
 
 static const char *const ways[] = {

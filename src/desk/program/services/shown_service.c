@@ -23,7 +23,7 @@
 #include "writers/tiles/page.h"
 #include "writers/tiles/tile_render.h"
 
-#define PIXELS_MOST (1 << 26) /* of a picture in memory */
+#define PIXELS_MOST (1 << 26) /* pixels of a picture in memory */
 
 typedef struct shown {
   celspan_context *context;

@@ -54,7 +54,7 @@ typedef struct drawn {
   celspan_frame_desc desc;
   cs_stage_kind kind;
   cs_stage_picture picture; /* owned */
-  double seconds;           /* that drawing it took */
+  double seconds;           /* how long drawing took */
 } drawn;
 
 struct stage {
@@ -62,7 +62,7 @@ struct stage {
   unsigned char bytes[HEAD + REQUEST_MOST]; /* the message that is being read */
   size_t size;
   uint32_t taken;   /* the number of the request that was taken last */
-  bool is_given_up; /* that request */
+  bool is_given_up; /* that request is given up */
   bool is_over;     /* no more messages will arrive */
   int wake[2];      /* a pipe: a byte for each picture that another thread has drawn */
   drawn *ring;      /* picture i lies at i % PLACES; owned */

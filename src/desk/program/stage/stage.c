@@ -10,7 +10,7 @@
 #include "lua/bind/host.h"
 #include "process/interrupt.h"
 
-#define PIXELS_MOST (1 << 25) /* of a picture in memory */
+#define PIXELS_MOST (1 << 25) /* pixels of a picture in memory */
 
 static const celspan_coding coding = {.struct_size = sizeof coding,
                                       .depth = CELSPAN_DEPTH_8,

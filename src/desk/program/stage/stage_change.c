@@ -70,7 +70,7 @@ typedef struct alteration {
   bool is_cut;
 } alteration;
 
-/* The letters for a cel: in a shot of a cut those of "shot/label", otherwise those of its label.
+/* The letters for a cel: in a shot of a cut from "shot/label", otherwise from its label.
  * Pushes them; "" if there are none. */
 static const char *push_letters(const alteration *a, const celspan_rostrum *from, size_t i) {
   char room[CS_STAGE_LABEL];

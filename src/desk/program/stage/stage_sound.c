@@ -9,7 +9,7 @@
 #include "program/stage/stage.h"
 
 enum {
-  SECONDS_MOST = 600, /* of a WAV file in memory */
+  SECONDS_MOST = 600, /* length of a WAV file in memory */
   COLUMNS_MOST = 10000,
   PIECE = 2048 /* moments that are read at a time */
 };

@@ -1,6 +1,6 @@
 --- celspan compare A B: whether two pictures, or two films as numbered pictures, show the same.
 local program, request = ...
-local core = require "celspan.core"
+local native = require "celspan.native"
 
 local DIFFERENT = 1
 local a, b, output = request[1], request[2], request.output
@@ -21,7 +21,7 @@ local function compare(one, other, difference)
 end
 
 local function numbers_of(pattern)
-  local numbers = program.check(core.frames(pattern))
+  local numbers = program.check(native.frames(pattern))
   if #numbers == 0 then program.fail("input", "%s: no file matches this pattern", pattern) end
   local has = {}
   for _, number in ipairs(numbers) do has[number] = true end
@@ -29,7 +29,7 @@ local function numbers_of(pattern)
 end
 
 local function name_of(pattern, number)
-  return pattern and program.check(core.frame_name(pattern, number))
+  return pattern and program.check(native.frame_name(pattern, number))
 end
 
 local function compare_frame(number)

@@ -9,13 +9,13 @@
 -- numbered by #### in SHEET. The last frame is always there.
 local program, request = ...
 local celspan = require "celspan"
-local core = require "celspan.core"
+local native = require "celspan.native"
 local number_at = program.part "numerals.lua"
 
 local PANEL_MOST, SHEET_MOST, PANEL_LEAST = 480, 3840, 16 -- pixels
 -- pixels of all panels of a page, because all are in memory at the same time
 local PAGE_MOST = 2 ^ 28
-local GAP, LABEL = 12, 24 -- between panels, and below them
+local GAP, LABEL = 12, 24 -- pixels between panels, and below them
 
 -- ---------------------------------------------------------------- a page
 
@@ -91,7 +91,7 @@ local function make_sheet(script, output)
     for i = (page - 1) * panels, math.min(page * panels, shown) - 1 do
       on_page[#on_page + 1] = numbers[i + 1]
     end
-    local path = program.check(core.frame_name(output, page))
+    local path = program.check(native.frame_name(output, page))
     local rostrum, width, height = page_of(script, on_page, columns, size, path)
     program.check(celspan.render(rostrum, path, { size = { width, height },
       workers = math.tointeger(request.workers) }))

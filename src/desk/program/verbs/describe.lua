@@ -1,7 +1,7 @@
 --- celspan describe SCRIPT: a film as text, from a survey of all its frames (survey.lua).
 local program, request = ...
 
-local STRETCHES_MOST = 8 -- of a part, on one line
+local STRETCHES_MOST = 8 -- more stretches of a part are not listed on its line
 
 local facts = program.part("facts.lua", program, request)
 

@@ -17,7 +17,7 @@
 --   job.table     of --table; job.has_values: whether it or --set-from sets parameters
 --   job.version   of celspan
 local program, request = ...
-local core = require "celspan.core"
+local native = require "celspan.native"
 
 local CHUNK, CHUNK_ROWS = 10, 1 -- frames of a task; films of a task with --table
 local STRIPS_MOST = 1000 -- the most that one command can join
@@ -42,7 +42,7 @@ local function absolute(path, folder)
   return (full .. "/"):find "/%.%.?/" and plain_path(full) or full
 end
 
---- The ending of a strip's file, which is that of its picture.
+--- The ending of a strip's file, which its picture has, too.
 local function ending_of(path) return path:match "%.([^./]*)$" or "" end
 
 --- The name of a strip's file; ending: of the output, which may be a text that stands for it.
@@ -300,7 +300,7 @@ end
 --- How many tasks have the most of `chunk`.
 local function tasks_of(count, chunk) return (count + chunk - 1) // chunk end
 
---- Options of the job that are not those of a row: the process of a row does not get them.
+--- Options of the job that are not for a row: the process of a row does not get them.
 local not_of_rows = setmetatable({ ["--table"] = true, ["--keep-going"] = true }, { __index = own })
 
 --- Refuses what `render` would refuse of a task, or of a row, with this output. division: --task or
@@ -335,7 +335,7 @@ local function count_tasks(job, script)
     if #numbers ~= 1 then
       program.usage("--strips divides one frame, and there are %d: name it with --frames", #numbers)
     end
-    job.output = program.check(core.frame_name(request.output, numbers[1]))
+    job.output = program.check(native.frame_name(request.output, numbers[1]))
     refuse_run(script, strip_pattern(job.output, 1), "--strip", job.tasks .. "/" .. job.tasks)
   else
     job.chunk = math.tointeger(request.chunk) or CHUNK

@@ -17,7 +17,7 @@ local environment = {
   { "CELSPAN_MEMORY", "the memory that the run may use, such as 4G, if there is more" },
   { "CELSPAN_PICTURE_MODULE",
     "the file of the module celspan-picture.so, if celspan does not find it" },
-  { "CELSPAN_ART_MODULE", "the same for celspan-art.so: type, drawings, paintings" },
+  { "CELSPAN_TYPE_MODULE", "the same for celspan-type.so: type, drawings, paintings" },
   { "CELSPAN_COLOUR_MODULE", "the same for celspan-colour.so: colour profiles" },
   { "CELSPAN_SPACE_MODULE", "the same for celspan-space.so: spaces of OpenColorIO" },
   { "CELSPAN_PDF_MODULE", "the same for celspan-pdf.so: drawings as PDF" },
@@ -202,7 +202,7 @@ end
 local function put_nearest(out, recipes, words)
   local topics = program.part("topics.lua", recipes, program.text "headings.txt",
     require "celspan.manual".names(), verbs)
-  local find = program.part("search.lua", require "celspan.core".nearest,
+  local find = program.part("search.lua", require "celspan.native".nearest,
     program.part "synonyms.lua")
   local found = find(topics, words, SHOWN)
   if words:find "^celspan_[%w_]+$" then

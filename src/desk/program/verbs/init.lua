@@ -8,7 +8,7 @@ local program, request = ...
 
 local NAME_MOST, PATH_MOST = 100, 2047
 
-local texts = { -- by the names of the files
+local texts = { -- the texts by the names of the files
   ["film.lua"] = "film.lua", ["cat.lua"] = "cat.lua", ["town.lua"] = "town.lua",
   ["timing.lua"] = "timing.lua", ["tune.lua"] = "tune.lua",
   ["spec/film_spec.lua"] = "film_spec.lua", ["README.md"] = "README.md",

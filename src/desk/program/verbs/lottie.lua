@@ -1,11 +1,11 @@
 --- The writer of film.json and film.lottie: a film as a Lottie animation, for players in pages and
 --- applications.
 ---
----   frames --core.scenery--> structures --tracks--> what moves, and what changes --> layers
+---   frames --native.scenery--> structures --tracks--> what moves, and what changes --> layers
 ---      \--what players cannot say--> pictures
 local program, request = ...
 
-local core = require "celspan.core"
+local native = require "celspan.native"
 local json = require "celspan.json"
 
 local FRAMES_MOST = 100000
@@ -45,7 +45,7 @@ for i, number in ipairs(numbers) do
   local scene = script:scene()
   if not (before and scene and scene == before) then
     local structure = #exposures == 1 and exposures[1][2] == 1
-      and core.scenery(exposures[1][1], script.size[1], script.size[2], script.space, shared)
+      and native.scenery(exposures[1][1], script.size[1], script.size[2], script.space, shared)
       or { why = "a sum of exposures" }
     for _, cel in ipairs(structure) do cel.front = front_of(cel.front) end
     frames[i] = pictures:divide(structure, exposures, i)

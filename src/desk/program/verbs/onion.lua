@@ -28,14 +28,14 @@
 -- For celspan watch each cel has its label (program/stage/stage_tree.c) as its name, and `labels`
 -- chooses the cels that skins are made of, and then those that are hidden: "\nnell\ncel 2\n" ..
 -- "\nsun\n". "\n": none; then skins are made of all that are no ground. nil: a render.
-local core, film, before, after, width, height, name, labels = ...
+local native, film, before, after, width, height, name, labels = ...
 local celspan = require "celspan"
 local scenes = require "celspan.scenes"
 
 local RED, GREEN = { 1, 0.18, 0.12 }, { 0.1, 0.75, 0.2 }
 local COARSE = 64 -- pixels a side, to find out whether a cel covers the frame
 local NAME_MOST = 255 -- bytes
-local FAR, FARTHER = 120, 12 -- frames to the nearest drawing, and from one to those of other cels
+local FAR, FARTHER = 120, 12 -- frames to the nearest drawing, and from it to drawings of other cels
 local SKIN = "\u{F0000}" -- the name of a skin among cels with labels: of no script's language
 
 local skinned, hidden = "\n", "\n" -- the two parts of `labels`
@@ -131,17 +131,17 @@ local function all_hold(frames, ...)
   return true
 end
 
---- How cels of the frame are compared with those of the others. If the rearmost cel and some
+--- How cels of the frame are compared with cels of the others. If the rearmost cel and some
 --- others, but not all, are only shifted, their art is compared; otherwise the whole cels are.
 local function likeness(frame, others)
   local rostrum, shifted = frame[1][1], 0
   for i = 1, #rostrum do
-    local is_shifted = not all_hold(others, rostrum[i], core.same)
-      and all_hold(others, rostrum[i], core.same_art)
-    if i == 1 and not is_shifted then return core.same end
+    local is_shifted = not all_hold(others, rostrum[i], native.same)
+      and all_hold(others, rostrum[i], native.same_art)
+    if i == 1 and not is_shifted then return native.same end
     if is_shifted then shifted = shifted + 1 end
   end
-  return shifted > 1 and shifted < #rostrum and core.same_art or core.same
+  return shifted > 1 and shifted < #rostrum and native.same_art or native.same
 end
 
 -- ---------------------------------------------------------------- ground and drawing
@@ -166,8 +166,10 @@ end
 --- rearmost objects, which the other frames also have, and one has the rest.
 local function parted(rostrum, others)
   local cel, count = rostrum[#rostrum], 0
-  if not cel or all_hold(others, cel, core.same) or not covers(rostrum, cel) then return rostrum end
-  while count < #cel and all_hold(others, cel[count + 1], core.same, "objects") do
+  if not cel or all_hold(others, cel, native.same) or not covers(rostrum, cel) then
+    return rostrum
+  end
+  while count < #cel and all_hold(others, cel[count + 1], native.same, "objects") do
     count = count + 1
   end
   if count == 0 or count == #cel then return rostrum end
@@ -289,14 +291,14 @@ end
 --- A cel that shows the pixels of the rest of a frame, where they differ from the drawing of this
 --- frame.
 local function skin(rest, own, tint, opacity)
-  local bytes = core.differing(pixels_of(rest, { width, height }), own)
+  local bytes = native.differing(pixels_of(rest, { width, height }), own)
   local filled = bytes:gsub("...(.)", "\255\255\255%1")
   return called(celspan.cel { opacity = opacity, front = { 1, 1, 1 },
     celspan.rostrum { size = film.size, celspan.cel { image_of(bytes), front = tint },
       celspan.cel { image_of(filled), front = tint, opacity = 0.5 } } })
 end
 
---- Skins, the farthest first; those of frames after this one lie over those before it.
+--- Skins, the farthest first; later frames lie over earlier ones.
 local function skins_of(frame, drawing, sides)
   local skins, own, camera = {}, pixels_of(drawing, { width, height }), frame[1][1].camera
   for _, side in ipairs(sides) do

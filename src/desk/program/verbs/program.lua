@@ -194,5 +194,5 @@ end
 
 --- Bytes as digits of base64 (RFC 4648).
 function program.base64(bytes)
-  return require("celspan.core").data(bytes):sub(#"data:;base64," + 1)
+  return require("celspan.native").data(bytes):sub(#"data:;base64," + 1)
 end

@@ -3,7 +3,7 @@
 ---   --stems -o mix.{name}.wav   mix.voice.wav, mix.music.wav, mix.rest.wav: they add up to the mix
 local program, request = ...
 
-local PLACE = "{name}" -- of the name of a stem
+local PLACE = "{name}" -- stands for the name of a stem
 
 local output, depth = request.output, request.depth or "16"
 if not output then program.usage "-o is missing: the file to write, such as mix.wav" end

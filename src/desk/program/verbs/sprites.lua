@@ -12,10 +12,10 @@
 local program, request = ...
 local celspan = require "celspan"
 
-local BYTES = 4 -- of a pixel
+local BYTES = 4 -- bytes of a pixel
 local SHEET_MOST = 16384 -- pixels a side, which graphics cards take
-local PIXELS_MOST = 2 ^ 26 -- of all sprites, because all are in memory at the same time
-local ROOM = 1.1 -- of the sheet, for what shelves leave free
+local PIXELS_MOST = 2 ^ 26 -- all sprites together, because all are in memory at once
+local ROOM = 1.1 -- more than the sprites, for what shelves leave free
 local workers = math.tointeger(request.workers)
 local gap = math.tointeger(request.padding) or 2
 

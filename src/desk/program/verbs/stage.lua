@@ -14,7 +14,7 @@ local program, request = ...
 local json = require "celspan.json"
 local texts = require "celspan.files"
 
-local CHECK_SECONDS = 0.03 -- of checking frames, for one request
+local CHECK_SECONDS = 0.03 -- time to check frames, for one request
 local SHEET_MOST = 10000   -- frames of a sheet
 local SCRIPT_MOST = 1 << 20 -- bytes of a script in which parameters are looked for
 local TREE_MOST = 2000     -- cels and objects of a frame's tree
@@ -131,7 +131,7 @@ local function marked(build_it, ...)
 end
 
 local points = {}  -- the points that a frame has read, such as ",sun,lamp,", by its number
-local before = "," -- those that the script has read before any frame
+local before = "," -- files that the script has read before any frame
 
 --- Those and the points that the script has read since this was asked for last.
 local function with_points(known)
@@ -213,7 +213,7 @@ function answers.made(ask)
   put { good = true, runs = runs }
 end
 
---- The objects and cels at a point, from front to back; in a transition those of the shot that is
+--- The objects and cels at a point, from front to back; in a transition only of the shot that is
 --- seen more come first. And a message, if they are not all.
 local function hits_of(x, y)
   local hits, places = {}, {}
@@ -238,7 +238,7 @@ function answers.at(ask)
 end
 
 --- The tree of the cels of the frame that was built last, and of the objects in them that have a
---- name, the nearest first. A cel that is in several exposures, as those of a shutter, is there
+--- name, the nearest first. A cel that is in several exposures, as of a shutter, is there
 --- once.
 local function tree_of()
   local tree, exposures, shot = {}, {}, nil
@@ -388,7 +388,7 @@ function answers.wave(ask)
   put({ good = true }, program.json { columns = { list = columns }, lips = lips_of(count) })
 end
 
-local scenes = {} -- of the frames that were checked, by number
+local scenes = {} -- scenes of the frames that were checked, by number
 
 --- Adds the faults of the sound and the script.
 local function add_whole(faults)

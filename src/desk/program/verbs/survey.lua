@@ -10,14 +10,14 @@
 -- how many parts, stretches and texts with different words there are.
 local program, script = ...
 local celspan = require "celspan"
-local core = require "celspan.core"
+local native = require "celspan.native"
 local flashes = program.part("flashes.lua")
 local texts = program.part("texts.lua", script)
 
 local survey = {}
 survey.__index = survey
 
-local RED, GREEN, BLUE = core.luma()
+local RED, GREEN, BLUE = native.luma()
 local POINTS, AREAS = 24, 48 -- points and areas along the longer side
 local SEEMS = 0.2      -- the share of the points that must flash before a flash is suspected
 local PARTS_MOST = 1000
@@ -206,7 +206,7 @@ end
 
 --- Examines the frame that was built last.
 function survey:add_new(number)
-  local parts = core.parts(script:exposures(), script.size[1], script.size[2])
+  local parts = native.parts(script:exposures(), script.size[1], script.size[2])
   local lights, _, is_plain = look(script:exposures(), self.points)
   if is_plain then is_plain = select(3, look(script:exposures(), self.areas)) end
   self:add_parts(number, parts)

@@ -70,7 +70,7 @@ end
 
 local COUNTS = { pass = "passed", skip = "skipped", fail = "failed" }
 
---- Counts a result, and prints that of a skipped or failed test.
+--- Counts a result, and prints it for a skipped or failed test.
 local function add_test(run, test)
   local counted = COUNTS[test.kind]
   run[counted] = run[counted] + 1

@@ -1,6 +1,6 @@
 --- celspan trace IN -o OUT: a drawing as shapes, written as SVG or as a script.
 local program, request = ...
-local core = require "celspan.core"
+local native = require "celspan.native"
 
 local COLOURS_MOST = 64
 
@@ -24,7 +24,7 @@ if not program.has_ending(output, ".svg", ".lua") then
   program.usage("-o: '%s' must end in .svg or .lua", output)
 end
 local picture = program.pictured(request[1])
-program.check(core.trace_write(picture, {
+program.check(native.trace_write(picture, {
   colours = request.colours and colours_of(request.colours), smooth = tonumber(request.smooth),
   speckle = math.tointeger(request.speckle), lines = request.lines,
 }, output))

@@ -1,5 +1,5 @@
 /* The layers of paintings: OpenRaster, Krita and Photoshop files.
- * The conventions are those of celspan/celspan.h. */
+ * The conventions of celspan/celspan.h hold. */
 #ifndef CELSPAN_LAYERS_H
 #define CELSPAN_LAYERS_H
 

@@ -49,7 +49,7 @@ typedef struct celspan_lua_limits {
   /* 0: without limit */
   size_t memory;  /* bytes of Lua and of what the script makes; default: 512 MiB */
   uint64_t steps; /* instructions, and the work of functions, in a run or a frame; 2e9 */
-  double seconds; /* of the processor, and ten times as many by the clock, in a call; 60 */
+  double seconds; /* processor time of a call, and ten times as much by the clock; 60 */
   size_t print;   /* bytes that may be printed in a run or a frame; 1 MiB */
   /* The files that scripts may read, and the places of modules, in addition to the folder of the
    * script that celspan_lua_run runs. Borrowed only during the call. */

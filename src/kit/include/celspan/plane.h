@@ -1,5 +1,5 @@
 /* Planes: frames without a resolution.
- * The conventions are those of celspan/celspan.h. */
+ * The conventions of celspan/celspan.h hold. */
 #ifndef CELSPAN_PLANE_H
 #define CELSPAN_PLANE_H
 

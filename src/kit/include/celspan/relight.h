@@ -1,5 +1,5 @@
 /* Relighting: removes light from pictures, and makes frames whose lights can be changed. The
- * conventions are those of celspan/celspan.h. */
+ * conventions of celspan/celspan.h hold. */
 #ifndef CELSPAN_RELIGHT_H
 #define CELSPAN_RELIGHT_H
 

@@ -1,5 +1,5 @@
 /* Drawings that are read from SVG files.
- * The conventions are those of celspan/celspan.h. */
+ * The conventions of celspan/celspan.h hold. */
 #ifndef CELSPAN_SVG_H
 #define CELSPAN_SVG_H
 

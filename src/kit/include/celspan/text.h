@@ -1,5 +1,5 @@
 /* Text: the outlines of the letters of fonts (TrueType, OpenType, collections of them).
- * The conventions are those of celspan/celspan.h. */
+ * The conventions of celspan/celspan.h hold. */
 #ifndef CELSPAN_TEXT_H
 #define CELSPAN_TEXT_H
 
@@ -25,7 +25,7 @@ typedef enum celspan_align {
   CELSPAN_ALIGN_RIGHT
 } celspan_align;
 
-typedef enum celspan_valign { /* what is placed at at.y; heights are those of the first font */
+typedef enum celspan_valign { /* what is placed at at.y; the first font has the heights */
                               CELSPAN_VALIGN_BASELINE = 0, /* of the first line */
                               CELSPAN_VALIGN_TOP,          /* the ascent of the first line */
                               CELSPAN_VALIGN_CAP,    /* the top of the capitals of the first line */

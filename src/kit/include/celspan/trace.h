@@ -1,5 +1,5 @@
 /* Tracing: shapes from a picture.
- * The conventions are those of celspan/celspan.h. */
+ * The conventions of celspan/celspan.h hold. */
 #ifndef CELSPAN_TRACE_H
 #define CELSPAN_TRACE_H
 

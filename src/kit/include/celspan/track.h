@@ -1,5 +1,5 @@
 /* Following what moves in a film.
- * The conventions are those of celspan/celspan.h. */
+ * The conventions of celspan/celspan.h hold. */
 #ifndef CELSPAN_TRACK_H
 #define CELSPAN_TRACK_H
 
@@ -17,7 +17,7 @@ typedef struct celspan_tracker celspan_tracker;
 typedef enum celspan_motion {
   CELSPAN_MOTION_TRANSLATION = 0,
   CELSPAN_MOTION_SIMILARITY, /* also rotated and scaled */
-  CELSPAN_MOTION_PERSPECTIVE /* that of a plane in perspective */
+  CELSPAN_MOTION_PERSPECTIVE /* as a plane moves in perspective */
 } celspan_motion;
 
 /* A grey picture: width x height values (at most 65,536 a side), rows from top to bottom without
@@ -44,7 +44,7 @@ typedef struct celspan_sighting {
   /* maps places of the first frame to places of this one; the centre of the first pixel is (0,
    * 0) */
   celspan_matrix matrix;
-  uint32_t corner_count; /* the corner count of corners that are followed, at most 240 */
+  uint32_t corner_count; /* how many corners are followed, at most 240 */
   uint32_t agreeing_count;
   double error; /* pixels: the root mean square over the corners that agree */
 } celspan_sighting;

@@ -23,7 +23,7 @@ static bool load_bytecode(lua_State *L, const cs_built_in *files, const char *na
     return false;
   if (luaL_loadbufferx(L, file->bytes + head, file->size - head, name, "b") == LUA_OK)
     return true;
-  lua_pop(L, 1); /* of the same release, but with other numbers, for example */
+  lua_pop(L, 1); /* it may be of the same release, but with other numbers */
   return false;
 }
 

@@ -8,7 +8,7 @@
 #include "lua/bind/require.h"
 
 #define MOST_CALLERS 6 /* named in a message: the first ones of a chain and the last one */
-#define MOST_CALLS 500 /* searched for these: for each, Lua walks from the innermost call */
+#define MOST_CALLS 500 /* more are not searched: for each, Lua walks from the innermost */
 
 /* Whether the function belongs to a built-in module; their names begin like this:
  * built_in.c. */

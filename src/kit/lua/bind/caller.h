@@ -20,7 +20,7 @@ bool cs_caller_find(lua_State *L, lua_Debug *out);
  * function keeps the caller's line known. */
 int cs_caller_enter(lua_State *L);
 /* Raises a message with the formats of lua_pushfstring at the caller's line; without a line where C
- * called. Does not return; the type is that of luaL_error. */
+ * called. Does not return; the type is luaL_error's. */
 int cs_caller_error(lua_State *L, const char *format, ...);
 
 /* Pushes "hand.lua:12: " for the nearest function below `last` that has lines and is not celspan's

@@ -4,7 +4,7 @@
  *   compile FILE                    runs it; LUA_PATH is where it requires from
  *
  * A file begins with the release of Lua and a zero. Nothing is stripped, so that errors have the
- * same lines and names as those of the text.
+ * same lines and names as the text.
  */
 #include <lauxlib.h>
 #include <lualib.h>

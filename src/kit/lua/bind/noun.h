@@ -69,7 +69,7 @@ typedef struct cs_field {
   const char *preset;
   const char *const *choices; /* CHOICE: the words, ended by NULL; the first one is the default */
   const char *shape;          /* NUMBERS: "a point {x, y}"; NULL: "an array of 9 numbers" */
-  const char *written;        /* its type in annotations; NULL: by `type` */
+  const char *written;        /* the field's type in annotations; NULL: by `type` */
   /* its type when it is read from a value, if it always exists there but differs from the given
    * one */
   const char *read;

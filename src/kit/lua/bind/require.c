@@ -5,9 +5,9 @@
 #include <string.h>
 
 /* Tables in the registry. */
-#define OPENERS "celspan.openers" /* of the private modules, by name */
+#define OPENERS "celspan.openers" /* names functions that open private modules */
 #define LOADED "celspan.loaded"   /* the modules that were loaded */
-#define GLOBALS "celspan.own"     /* of celspan's own chunks */
+#define GLOBALS "celspan.own"     /* names the globals of celspan's own chunks */
 
 void cs_require_give(lua_State *L, const luaL_Reg *modules) {
   luaL_getsubtable(L, LUA_REGISTRYINDEX, OPENERS);

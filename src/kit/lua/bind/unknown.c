@@ -168,7 +168,7 @@ static bool is_word(const char *const *words, const char *word) {
   return words && *words;
 }
 
-/* Raises: the name is a word that belongs to another field: fill = "evenodd". */
+/* Raises if the name is a word of another field, as in fill = "evenodd". */
 static void fail_choice(lua_State *L, const cs_noun *noun, int table, const char *name) {
   lua_getfield(L, table, name);
   const char *word = lua_type(L, -1) == LUA_TSTRING ? lua_tostring(L, -1) : NULL;

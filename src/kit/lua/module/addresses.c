@@ -2,7 +2,7 @@
 #include <lauxlib.h>
 
 #include "common/address.h"
-#include "lua/module/core.h"
+#include "lua/module/native.h"
 
 int cs_addresses_is_data(lua_State *L) {
   lua_pushboolean(L, cs_address_is_data(luaL_checkstring(L, 1)));

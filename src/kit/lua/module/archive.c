@@ -4,7 +4,7 @@
 
 #include "lua/bind/host.h"
 #include "lua/bind/userdata.h"
-#include "lua/module/core.h"
+#include "lua/module/native.h"
 #include "readers/layered/zip.h"
 
 /* A member while it is read. Its memory is released in any case. */

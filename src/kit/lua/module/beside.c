@@ -11,7 +11,7 @@
 #include <lualib.h>
 
 #include "lua/bind/caller.h"
-#include "lua/module/core.h"
+#include "lua/module/native.h"
 
 #define SEARCHER "celspan.beside" /* in the registry, when package.searchers has it */
 /* a key of the registry: in which folders a file that was found in this way searches further */

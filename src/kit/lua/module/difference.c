@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "common/difference.h"
-#include "lua/module/core.h"
+#include "lua/module/native.h"
 
 typedef struct tally {
   lua_Integer count;

@@ -1,7 +1,7 @@
 /* Drawings read from SVG: the functions behind lua/celspan/read/svg.lua.
  *
- *   core.read_svg(path, fonts, space, move) -> drawing | nil, message
- *   core.parse_svg(text, name) -> drawing | nil, message
+ *   native.read_svg(path, fonts, space, move) -> drawing | nil, message
+ *   native.parse_svg(text, name) -> drawing | nil, message
  *   fonts: nil, or a list of { family, file, where it was looked for in vain }
  *   drawing:object(), :seconds(), :size(), :parts(), :skipped(), :key(), :with(functions by name),
  *   :at(seconds, move) -> drawing | nil, message
@@ -10,7 +10,7 @@
  * INVARIANT: functions of the script run protected, so that memory of the core is released when
  * they raise errors.
  */
-#include "lua/module/core.h"
+#include "lua/module/native.h"
 
 #include <lauxlib.h>
 #include <stdlib.h>

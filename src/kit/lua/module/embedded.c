@@ -7,7 +7,7 @@
 #include "lua/bind/built_in.h"
 #include "lua/bind/caller.h"
 #include "lua/bind/require.h"
-#include "lua/module/core.h"
+#include "lua/module/native.h"
 
 extern const cs_built_in cs_module_texts[];
 
@@ -43,7 +43,7 @@ CS_PUBLIC(OPEN)
   CELSPAN_API int luaopen_celspan_##name(lua_State *L);                                            \
   int luaopen_celspan_##name(lua_State *L) { return refuse(L, #name); }
 CS_PRIVATE(REFUSE)
-REFUSE(core, module)
+REFUSE(native, module)
 
 #define OPEN_PRIVATE(name, folder)                                                                 \
   static int open_##name(lua_State *L) { return run(L, #folder "/", #name ".lua"); }
@@ -52,7 +52,8 @@ CS_PRIVATE(OPEN_PRIVATE)
 void cs_embedded_open(lua_State *L) {
 #define ROW(name, folder) {"celspan." #name, luaopen_celspan_##name},
 #define PRIVATE_ROW(name, folder) {"celspan." #name, open_##name},
-  static const luaL_Reg modules[] = {CS_PUBLIC(ROW) CS_PRIVATE(ROW) ROW(core, module){NULL, NULL}};
+  static const luaL_Reg modules[] = {CS_PUBLIC(ROW) CS_PRIVATE(ROW)
+                                         ROW(native, module){NULL, NULL}};
   static const luaL_Reg own[] = {CS_PRIVATE(PRIVATE_ROW){NULL, NULL}};
   cs_require_offer(L, modules, own);
 }

@@ -9,7 +9,7 @@
 #include "inside/description.h"
 #include "lua/bind/host.h"
 #include "lua/bind/userdata.h"
-#include "lua/module/core.h"
+#include "lua/module/native.h"
 #include "lua/module/visit.h"
 #include "lua/nouns/lua_film.h"
 

@@ -7,7 +7,7 @@
 #include "inside/files.h"
 #include "lua/bind/host.h"
 #include "lua/bind/userdata.h"
-#include "lua/module/core.h"
+#include "lua/module/native.h"
 
 enum { PIECE = 65536 };
 

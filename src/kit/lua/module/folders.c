@@ -9,7 +9,7 @@
 #include "inside/films.h"
 #include "lua/bind/host.h"
 #include "lua/bind/userdata.h"
-#include "lua/module/core.h"
+#include "lua/module/native.h"
 
 #define MOST_FILES 100000
 

@@ -10,7 +10,7 @@
 #include <string.h>
 
 #include "lua/bind/host.h"
-#include "lua/module/core.h"
+#include "lua/module/native.h"
 
 enum { DEPTH = 100, SLOTS = 8 /* of the stack, for a value */ };
 

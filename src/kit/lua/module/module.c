@@ -12,7 +12,7 @@
 #include "lua/bind/require.h"
 #include "lua/bind/suggest.h"
 #include "lua/bind/warnings.h"
-#include "lua/module/core.h"
+#include "lua/module/native.h"
 #include "lua/module/parameters.h"
 #include "lua/nouns/lua_film.h"
 #include "lua/nouns/nouns.h"
@@ -21,7 +21,7 @@
 
 #define MOST_NAMES 512
 
-/* core.find(name): the path of a file; and if the file does not exist there, the other place that
+/* native.find(name): the path of a file; and if the file does not exist there, the other place that
  * was searched. */
 static int find(lua_State *L) {
   const char *tried;
@@ -29,7 +29,7 @@ static int find(lua_State *L) {
   return 2;
 }
 
-/* core.nearest(word, names): the name that was probably meant, or nil. */
+/* native.nearest(word, names): the name that was probably meant, or nil. */
 static int nearest(lua_State *L) {
   const char *word = luaL_checkstring(L, 1);
   luaL_checktype(L, 2, LUA_TTABLE);
@@ -45,7 +45,7 @@ static int nearest(lua_State *L) {
   return 1;
 }
 
-/* core.code(light) and core.light(code): the curve of sRGB, for numbers of at least 0. */
+/* native.code(light) and native.light(code): the curve of sRGB, for numbers of at least 0. */
 static int code_of(lua_State *L) {
   lua_pushnumber(L, cs_transfer_code(luaL_checknumber(L, 1)));
   return 1;
@@ -56,7 +56,7 @@ static int light_of(lua_State *L) {
   return 1;
 }
 
-/* core.luma(): the weights of the channels in luma. */
+/* native.luma(): the weights of the channels in luma. */
 static int luma(lua_State *L) {
   lua_pushnumber(L, CS_LUMA_RED);
   lua_pushnumber(L, CS_LUMA_GREEN);
@@ -64,19 +64,19 @@ static int luma(lua_State *L) {
   return 3;
 }
 
-/* core.refuse(message): raises it at the line of the nearest caller that does not belong to
+/* native.refuse(message): raises it at the line of the nearest caller that does not belong to
  * celspan. */
 static int refuse(lua_State *L) { return cs_caller_error(L, "%s", luaL_checkstring(L, 1)); }
 
-/* core.miss(noun, sentence): the same for an input that is not there, which is no fault of the
- * script: the exit code is that of the core for such a file. */
+/* native.miss(noun, sentence): the same for an input that is not there, which is no fault of the
+ * script: the exit code is the core's for such a file. */
 static int miss(lua_State *L) {
   const char *noun = luaL_checkstring(L, 1), *sentence = luaL_checkstring(L, 2);
   cs_host_try(L, noun, cs_fail(cs_host_context(L), CELSPAN_INPUT, "%s", sentence));
   return 0;
 }
 
-/* core.excess(message) -> nil, message: a file is too large or too deep for its reader. */
+/* native.excess(message) -> nil, message: a file is too large or too deep for its reader. */
 static int excess(lua_State *L) {
   return cs_host_fail(L, cs_fail(cs_host_context(L), CELSPAN_INPUT, "%s", luaL_checkstring(L, 1)));
 }
@@ -89,8 +89,8 @@ static int push_around(lua_State *L, lua_CFunction around) {
   return 1;
 }
 
-/* core.entry(function): the same function, but it keeps the line of a caller that ends with a call
- * of it. */
+/* native.entry(function): the same function, but it keeps the line of a caller that ends with a
+ * call of it. */
 static int entry(lua_State *L) { return push_around(L, cs_caller_enter); }
 
 static int call_outside(lua_State *L) {
@@ -99,8 +99,8 @@ static int call_outside(lua_State *L) {
   return lua_pcall(L, lua_gettop(L) - 1, LUA_MULTRET, 0) == LUA_OK ? lua_gettop(L) : lua_error(L);
 }
 
-/* core.outside(function): the same function, but its errors are raised after it has left the stack,
- * so that error handlers do not find it there. */
+/* native.outside(function): the same function, but its errors are raised after it has left the
+ * stack, so that error handlers do not find it there. */
 static int outside(lua_State *L) { return push_around(L, call_outside); }
 
 /* Calls a function that the program provides, with the arguments. */
@@ -115,98 +115,98 @@ static int call_program(lua_State *L, const char *name, const char *what) {
   return 2;
 }
 
-/* core.hear(path, tried), core.spectrum(path, tried), core.movie(path, tried),
- * core.is_movie(path): see core.h. */
-static int hear(lua_State *L) { return call_program(L, CS_CORE_HEAR, "sounds"); }
+/* native.hear(path, tried), native.spectrum(path, tried), native.movie(path, tried),
+ * native.is_movie(path): see native.h. */
+static int hear(lua_State *L) { return call_program(L, CS_NATIVE_HEAR, "sounds"); }
 
-static int spectrum(lua_State *L) { return call_program(L, CS_CORE_SPECTRUM, "sounds"); }
+static int spectrum(lua_State *L) { return call_program(L, CS_NATIVE_SPECTRUM, "sounds"); }
 
-static int movie(lua_State *L) { return call_program(L, CS_CORE_MOVIE, "movies"); }
+static int movie(lua_State *L) { return call_program(L, CS_NATIVE_MOVIE, "movies"); }
 
-static int is_movie(lua_State *L) { return call_program(L, CS_CORE_IS_MOVIE, "movies"); }
+static int is_movie(lua_State *L) { return call_program(L, CS_NATIVE_IS_MOVIE, "movies"); }
 
-static const luaL_Reg core_functions[] = {{"find", find},
-                                          {"nearest", nearest},
-                                          {"nouns", cs_nouns_push},
-                                          {"source", cs_embedded_source},
-                                          {"refuse", refuse},
-                                          {"code", code_of},
-                                          {"light", light_of},
-                                          {"luma", luma},
-                                          {"miss", miss},
-                                          {"excess", excess},
-                                          {"warns", cs_warnings_kept},
-                                          {"warn", cs_warnings_add},
-                                          {"entry", entry},
-                                          {"outside", outside},
-                                          {"settings", cs_parameters_settings},
-                                          {"sounds", cs_lua_film_sounds},
-                                          {"captions", cs_lua_film_captions},
-                                          {"hear", hear},
-                                          {"spectrum", spectrum},
-                                          {"movie", movie},
-                                          {"is_movie", is_movie},
-                                          {"difference", cs_difference_of},
-                                          {"painting", cs_painting_read},
-                                          {"archive", cs_archive_member},
-                                          {"archive_size", cs_archive_size},
-                                          {"is_data", cs_addresses_is_data},
-                                          {"data", cs_addresses_make},
-                                          {"blend_within", cs_placed_blend_within},
-                                          {"warp", cs_derived_warp},
-                                          {"boil", cs_derived_boil},
-                                          {"trim", cs_operators_trim},
-                                          {"round_corners", cs_operators_round_corners},
-                                          {"zigzag", cs_operators_zigzag},
-                                          {"pucker", cs_operators_pucker},
-                                          {"offset", cs_operators_offset},
-                                          {"twist", cs_operators_twist},
-                                          {"anatomy", cs_anatomy_of},
-                                          {"rebuild", cs_anatomy_rebuild},
-                                          {"move_texture", cs_anatomy_move},
-                                          {"ruler", cs_ruler_make},
-                                          {"ruler_at", cs_ruler_at},
-                                          {"parcels", cs_parcels_list},
-                                          {"scenery", cs_scenery_of},
-                                          {"scene_key", cs_scenery_key},
-                                          {"scene_rear", cs_scenery_rear},
-                                          {"parts", cs_parts_list},
-                                          {"folder", cs_folders_names},
-                                          {"within", cs_folders_within},
-                                          {"file_text", cs_file_text},
-                                          {"json", cs_json_text_read},
-                                          {"trace", cs_tracing_make},
-                                          {"trace_write", cs_tracing_write},
-                                          {"tracker", cs_track_tracker},
-                                          {"follow", cs_track_follow},
-                                          {"rewind", cs_track_rewind},
-                                          {"inverse", cs_track_inverse},
-                                          {"frames", cs_folders_frames},
-                                          {"frame_name", cs_folders_frame_name},
-                                          {"picture_size", cs_relight_size},
-                                          {"light_estimate", cs_relight_estimate},
-                                          {"light_shape", cs_relight_shape},
-                                          {"relight_picture", cs_relight_picture},
-                                          {"relight_exposures", cs_relight_exposures},
-                                          {"relight_grounds", cs_relight_grounds},
-                                          {"stack", cs_stack_make},
-                                          {"stack_lights", cs_stack_lights},
-                                          {"stack_light", cs_stack_light},
-                                          {"relight_write", cs_relight_write},
-                                          {"relight_read", cs_relight_read},
-                                          {NULL, NULL}};
+static const luaL_Reg native_functions[] = {{"find", find},
+                                            {"nearest", nearest},
+                                            {"nouns", cs_nouns_push},
+                                            {"source", cs_embedded_source},
+                                            {"refuse", refuse},
+                                            {"code", code_of},
+                                            {"light", light_of},
+                                            {"luma", luma},
+                                            {"miss", miss},
+                                            {"excess", excess},
+                                            {"warns", cs_warnings_kept},
+                                            {"warn", cs_warnings_add},
+                                            {"entry", entry},
+                                            {"outside", outside},
+                                            {"settings", cs_parameters_settings},
+                                            {"sounds", cs_lua_film_sounds},
+                                            {"captions", cs_lua_film_captions},
+                                            {"hear", hear},
+                                            {"spectrum", spectrum},
+                                            {"movie", movie},
+                                            {"is_movie", is_movie},
+                                            {"difference", cs_difference_of},
+                                            {"painting", cs_painting_read},
+                                            {"archive", cs_archive_member},
+                                            {"archive_size", cs_archive_size},
+                                            {"is_data", cs_addresses_is_data},
+                                            {"data", cs_addresses_make},
+                                            {"blend_within", cs_placed_blend_within},
+                                            {"warp", cs_derived_warp},
+                                            {"boil", cs_derived_boil},
+                                            {"trim", cs_operators_trim},
+                                            {"round_corners", cs_operators_round_corners},
+                                            {"zigzag", cs_operators_zigzag},
+                                            {"pucker", cs_operators_pucker},
+                                            {"offset", cs_operators_offset},
+                                            {"twist", cs_operators_twist},
+                                            {"anatomy", cs_anatomy_of},
+                                            {"rebuild", cs_anatomy_rebuild},
+                                            {"move_texture", cs_anatomy_move},
+                                            {"ruler", cs_ruler_make},
+                                            {"ruler_at", cs_ruler_at},
+                                            {"parcels", cs_parcels_list},
+                                            {"scenery", cs_scenery_of},
+                                            {"scene_key", cs_scenery_key},
+                                            {"scene_rear", cs_scenery_rear},
+                                            {"parts", cs_parts_list},
+                                            {"folder", cs_folders_names},
+                                            {"within", cs_folders_within},
+                                            {"file_text", cs_file_text},
+                                            {"json", cs_json_text_read},
+                                            {"trace", cs_tracing_make},
+                                            {"trace_write", cs_tracing_write},
+                                            {"tracker", cs_track_tracker},
+                                            {"follow", cs_track_follow},
+                                            {"rewind", cs_track_rewind},
+                                            {"inverse", cs_track_inverse},
+                                            {"frames", cs_folders_frames},
+                                            {"frame_name", cs_folders_frame_name},
+                                            {"picture_size", cs_relight_size},
+                                            {"light_estimate", cs_relight_estimate},
+                                            {"light_shape", cs_relight_shape},
+                                            {"relight_picture", cs_relight_picture},
+                                            {"relight_exposures", cs_relight_exposures},
+                                            {"relight_grounds", cs_relight_grounds},
+                                            {"stack", cs_stack_make},
+                                            {"stack_lights", cs_stack_lights},
+                                            {"stack_light", cs_stack_light},
+                                            {"relight_write", cs_relight_write},
+                                            {"relight_read", cs_relight_read},
+                                            {NULL, NULL}};
 
-static int push_core(lua_State *L) {
+static int push_native(lua_State *L) {
   cs_host_open(L, NULL);
-  luaL_newlib(L, core_functions);
+  luaL_newlib(L, native_functions);
   cs_drawing_open(L);
   return 1;
 }
 
-void cs_core_open(lua_State *L) {
-  static const luaL_Reg core[] = {{"celspan.core", push_core}, {NULL, NULL}};
+void cs_native_open(lua_State *L) {
+  static const luaL_Reg native[] = {{"celspan.native", push_native}, {NULL, NULL}};
   cs_embedded_open(L);
-  cs_require_give(L, core);
+  cs_require_give(L, native);
 }
 
 static int compare(const void *a, const void *b) {
@@ -338,7 +338,7 @@ int luaopen_celspan(lua_State *L) {
   lua_setfield(L, -2, "clear");
   cs_pixels_open(L);
   cs_plane_open(L);
-  cs_core_open(L);
+  cs_native_open(L);
   set_reading(L);
   return 1;
 }

@@ -5,8 +5,8 @@
 
 #include "readers/svg/motion/motion.h"
 
-/* function(mover, seconds, key) -> how long the drawing moves. seconds: nil: it is not moved. key: an
- * integer, the same for equal documents.
+/* function(mover, seconds, key) -> how long the drawing moves. seconds: nil: it is not moved.
+ * key: an integer, the same for equal documents.
  *
  *   mover:animation(number) -> target | false, attribute, tag     of an element that animates
  *   mover:text(number, name, ...) -> text | nil, ...    attributes of one; number 0: properties of
@@ -26,7 +26,7 @@ typedef struct cs_mover {
   lua_State *L;
   int function, self;    /* the indices of the function and of this value */
   cs_svg_mover *mover;   /* NULL: the function does not run */
-  celspan_status status; /* of the last of the mover's functions */
+  celspan_status status; /* what the last function of the mover returned */
   int failure;           /* the index of the error that the function raised; 0: none */
 } cs_mover;
 

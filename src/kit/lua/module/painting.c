@@ -3,7 +3,7 @@
 #include "lua/bind/host.h"
 #include "lua/bind/put.h"
 #include "lua/bind/userdata.h"
-#include "lua/module/core.h"
+#include "lua/module/native.h"
 #include "lua/nouns/pixel_string.h"
 #include "readers/layered/contents.h"
 

@@ -1,8 +1,8 @@
-/* core.parcels(plane): what can be seen of a plane as outlines, in the form of core.scenery.
+/* native.parcels(plane): what can be seen of a plane as outlines, in the form of native.scenery.
  *
  *   parcels   outlines { kind, rule, contours, fill }, which do not overlap, the rearmost first;
  *             lines: what lies under them, so that players show no seams: open contours and fills
- *   fill      as in core.scenery, but its stops { at, r, g, b, alpha } are codes, and a radial
+ *   fill      as in native.scenery, but its stops { at, r, g, b, alpha } are codes, and a radial
  *             one has a map from its units
  */
 #include <math.h>
@@ -11,7 +11,7 @@
 #include "lua/bind/host.h"
 #include "lua/bind/put.h"
 #include "lua/bind/userdata.h"
-#include "lua/module/core.h"
+#include "lua/module/native.h"
 #include "writers/parcels/under.h"
 
 /* The cosine of the angle between the axes of a radial gradient that counts as a right angle. */
@@ -174,7 +174,7 @@ static celspan_status make(held *h, const celspan_plane *plane) {
 
 /* (plane) -> its parcels | nil, why they cannot be shapes */
 int cs_parcels_list(lua_State *L) {
-  celspan_plane **plane = luaL_checkudata(L, 1, CS_CORE_PLANE);
+  celspan_plane **plane = luaL_checkudata(L, 1, CS_NATIVE_PLANE);
   held *h = cs_userdata_push_holder(L, "celspan.parcels", sizeof *h, release);
   h->context = cs_host_context(L);
   CS_HOST_TRY(L, make(h, *plane));

@@ -11,7 +11,7 @@
 #include "lua/bind/host.h"
 #include "lua/bind/put.h"
 #include "lua/bind/userdata.h"
-#include "lua/module/core.h"
+#include "lua/module/native.h"
 #include "lua/nouns/options.h"
 
 enum { PLACE_SIZE = 64, PATH_SIZE = 512 };
@@ -34,7 +34,7 @@ typedef struct list {
 typedef struct around {
   celspan_matrix matrix;
   double fade;
-  double width, height; /* of the film, or of the composition around the value */
+  double width, height; /* size of the film, or of the composition around the value */
   bool is_inner;        /* inside a composition that lies in the frame's */
   bool is_text;         /* inside a text, where only the letters together are listed */
   /* the letters of this text, if they are an object of their own; otherwise NULL */

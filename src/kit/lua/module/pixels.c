@@ -10,7 +10,7 @@
 #include "lua/bind/host.h"
 #include "lua/bind/unknown.h"
 #include "lua/bind/userdata.h"
-#include "lua/module/core.h"
+#include "lua/module/native.h"
 #include "lua/module/subject.h"
 
 #define IMAGE "celspan.pixels"

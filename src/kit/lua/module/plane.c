@@ -7,13 +7,13 @@
 #include "lua/bind/host.h"
 #include "lua/bind/unknown.h"
 #include "lua/bind/userdata.h"
-#include "lua/module/core.h"
+#include "lua/module/native.h"
 #include "lua/module/pixels.h"
 #include "lua/module/subject.h"
 #include "writers/plane/plane.h"
 
 static int finish_plane(lua_State *L) {
-  celspan_plane **plane = luaL_checkudata(L, 1, CS_CORE_PLANE);
+  celspan_plane **plane = luaL_checkudata(L, 1, CS_NATIVE_PLANE);
   celspan_plane_unref(*plane);
   *plane = NULL;
   return 0;
@@ -23,7 +23,7 @@ static int finish_plane(lua_State *L) {
 static celspan_plane **push_plane(lua_State *L) {
   celspan_plane **plane = lua_newuserdatauv(L, sizeof *plane, 0);
   *plane = NULL;
-  luaL_setmetatable(L, CS_CORE_PLANE);
+  luaL_setmetatable(L, CS_NATIVE_PLANE);
   return plane;
 }
 
@@ -33,7 +33,7 @@ static int finish(lua_State *L, celspan_status status) {
 
 /* The `self` of a method; raises for anything but a plane. */
 static const celspan_plane *self(lua_State *L, const char *method) {
-  celspan_plane **plane = luaL_testudata(L, 1, CS_CORE_PLANE);
+  celspan_plane **plane = luaL_testudata(L, 1, CS_NATIVE_PLANE);
   if (!plane || !*plane)
     cs_caller_error(L, "%s: call it as a method, plane:%s(...), got %s", method, method,
                     cs_userdata_type(L, 1));
@@ -174,7 +174,7 @@ static int index_plane(lua_State *L) {
       {"pixels", pixels}, {"write", write_plane}, {"frame", choose_frame}};
   static const char *const names[] = {"width", "height", "bytes", "frames",
                                       "fps",   "pixels", "write", "frame"};
-  celspan_plane *const *plane = luaL_checkudata(L, 1, CS_CORE_PLANE);
+  celspan_plane *const *plane = luaL_checkudata(L, 1, CS_NATIVE_PLANE);
   if (lua_type(L, 2) != LUA_TSTRING)
     return 0;
   const char *name = lua_tostring(L, 2);
@@ -189,7 +189,7 @@ static int index_plane(lua_State *L) {
 }
 
 static int describe(lua_State *L) {
-  celspan_plane *const *plane = luaL_checkudata(L, 1, CS_CORE_PLANE);
+  celspan_plane *const *plane = luaL_checkudata(L, 1, CS_NATIVE_PLANE);
   double width, height;
   celspan_plane_size(*plane, &width, &height);
   lua_pushfstring(L, "plane{ %f x %f, %I bytes }", width, height,
@@ -200,9 +200,9 @@ static int describe(lua_State *L) {
 void cs_plane_open(lua_State *L) {
   static const luaL_Reg metamethods[] = {
       {"__index", index_plane}, {"__tostring", describe}, {"__gc", finish_plane}, {NULL, NULL}};
-  luaL_newmetatable(L, CS_CORE_PLANE);
+  luaL_newmetatable(L, CS_NATIVE_PLANE);
   luaL_setfuncs(L, metamethods, 0);
-  lua_pushliteral(L, CS_CORE_PLANE);
+  lua_pushliteral(L, CS_NATIVE_PLANE);
   lua_setfield(L, -2, "__metatable");
   lua_pop(L, 1);
 }

@@ -11,7 +11,7 @@
 #include "lua/bind/named.h"
 #include "lua/bind/put.h"
 #include "lua/bind/userdata.h"
-#include "lua/module/core.h"
+#include "lua/module/native.h"
 
 /* ---------------------------------------------------------------- values */
 

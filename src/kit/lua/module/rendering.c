@@ -5,7 +5,7 @@
 #include "lua/bind/host.h"
 #include "lua/bind/lua_error.h"
 #include "lua/bind/userdata.h"
-#include "lua/module/core.h"
+#include "lua/module/native.h"
 #include "lua/nouns/lua_film.h"
 #include "lua/nouns/options.h"
 
@@ -14,7 +14,7 @@ typedef struct job {
   lua_State *L;
   celspan_context *context;
   int film;     /* index on the stack */
-  int progress; /* likewise; 0: none */
+  int progress; /* index on the stack; 0: none */
   cs_film_info info;
   cs_options options;
   celspan_file_desc file;

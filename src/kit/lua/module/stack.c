@@ -6,7 +6,7 @@
 #include "lua/bind/host.h"
 #include "lua/bind/put.h"
 #include "lua/bind/userdata.h"
-#include "lua/module/core.h"
+#include "lua/module/native.h"
 #include "lua/module/pixels.h"
 #include "lua/module/subject.h"
 

@@ -10,7 +10,7 @@
 #include "lua/bind/list.h"
 #include "lua/bind/put.h"
 #include "lua/bind/userdata.h"
-#include "lua/module/core.h"
+#include "lua/module/native.h"
 #include "tools/trace/result.h"
 
 #define MOST_COLOURS 64

@@ -7,7 +7,7 @@
 #include "lua/bind/host.h"
 #include "lua/bind/put.h"
 #include "lua/bind/userdata.h"
-#include "lua/module/core.h"
+#include "lua/module/native.h"
 
 #define TRACKER "celspan.tracker"
 enum { PIXEL = 4 * sizeof(uint16_t) }; /* bytes */

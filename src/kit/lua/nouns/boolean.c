@@ -68,7 +68,7 @@ static cs_userdata *operand(lua_State *L, int index, const char *sign) {
   return value;
 }
 
-/* Pushes the operands of a chain: those of the left value, then the right value. If the left value
+/* Pushes the operands of a chain: the left value's, then the right value. If the left value
  * shows all of its table, the table is extended and shared, which can happen only once for each
  * table. Its room doubles like the core's, so that a value that uses only the beginning keeps few
  * operands of other values alive. */

@@ -158,14 +158,14 @@ int cs_derived_warp(lua_State *L) {
 /* ---------------------------------------------------------------- boil */
 
 enum {
-  STEPS_A_POINT = 16, /* of the sandbox */
+  STEPS_A_POINT = 16, /* steps of the sandbox */
   POINTS_A_CHARGE = 4096
 };
 
 /* A grid whose points are moved at random, and between them smoothly: motion.noise of Lua at whole
  * numbers, to the bit. */
 typedef struct boiling {
-  mapping mapping;       /* whose outcome is that of counting steps */
+  mapping mapping;       /* its outcome is the one of counting steps */
   uint64_t across, down; /* seeds */
   uint64_t step;
   double amount, grain; /* units */

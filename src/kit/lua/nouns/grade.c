@@ -12,7 +12,7 @@
 typedef struct grade_form {
   celspan_grade_desc desc;
   const char *lut;
-  int lut_space; /* of cs_space_words */
+  int lut_space; /* an index of cs_space_words */
 } grade_form;
 
 #define FORM grade_form

@@ -18,7 +18,7 @@ void cs_lua_film_read(lua_State *L, int film, cs_film_info *out);
  * that made the film, otherwise beside the script. */
 int cs_lua_film_sounds(lua_State *L);
 /* (film) -> its captions, and where they are the name of a file its path, and another path that was
- * searched or nil. Files are where those of sounds are. */
+ * searched or nil. Files are searched for as for sounds. */
 int cs_lua_film_captions(lua_State *L);
 /* Calls the frame function. out: new, must be finished; not changed on failure. */
 CELSPAN_CHECKED celspan_status cs_lua_film_build(lua_State *L, int film, int64_t number,

@@ -77,9 +77,9 @@ int cs_nouns_sharpen(lua_State *L);
 int cs_nouns_shadow(lua_State *L);
 int cs_nouns_glow(lua_State *L);
 int cs_nouns_outline(lua_State *L);
-extern const char *const cs_nouns_kernels[]; /* of a blur, ended by NULL */
+extern const char *const cs_nouns_kernels[]; /* kernels of a blur, ended by NULL */
 extern const char *const cs_nouns_edges[];
-extern const char *const cs_nouns_caps[];  /* of a stroke, likewise */
+extern const char *const cs_nouns_caps[];  /* caps of a stroke, likewise */
 extern const char *const cs_nouns_joins[]; /* and those at its corners */
 
 /* Functions of the module celspan. */

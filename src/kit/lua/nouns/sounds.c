@@ -8,7 +8,7 @@
 #include "lua/nouns/nouns.h"
 
 #define MOST_SECONDS 1e9
-#define MOST_SOUNDS 10000 /* of a film */
+#define MOST_SOUNDS 10000 /* sounds of a film */
 
 /* ---------------------------------------------------------------- one sound */
 

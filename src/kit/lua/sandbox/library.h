@@ -1,4 +1,4 @@
-/* The globals of a script in the sandbox, and those of celspan's own modules.
+/* The globals of a script in the sandbox, and of celspan's own modules.
  *
  *   script, its modules --> globals: a list of allowed functions, some of them replaced
  *   celspan's modules   --> Lua's own, without io, os, debug and package; files through roots

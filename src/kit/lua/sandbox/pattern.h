@@ -1,6 +1,6 @@
 /* Matching of Lua patterns, with counted steps.
  *
- * The patterns are those of the manual of Lua 5.4, section 6.4.1. For some subjects Lua's matcher
+ * The patterns are as in the manual of Lua 5.4, section 6.4.1. For some subjects Lua's matcher
  * takes time exponential in the length of the pattern, and cannot be stopped; here every comparison
  * of a character is a step of the guard.
  *

@@ -26,7 +26,7 @@ typedef struct reading {
   cs_listing *out;
   packet *packets;
   size_t count, capacity;
-  bool lacks_time[STREAMS]; /* of streams: a packet has no time */
+  bool lacks_time[STREAMS]; /* whether a packet of the stream has no time */
   int64_t listed[STREAMS];  /* packets of streams, also of pictures that an edit list leaves out */
   int video;                /* the stream of the movie; -1: not found yet */
   int64_t promised, length; /* of it: pictures, and ticks of all that are shown; 0: not given */

@@ -14,7 +14,7 @@
 
 enum {
   CS_LISTING_SIDE = 32768,      /* pixels */
-  CS_LISTING_PICTURES = 4000000 /* of a movie: 46 hours at 24 a second */
+  CS_LISTING_PICTURES = 4000000 /* pictures of a movie: 46 hours at 24 a second */
 };
 
 /* A file that was opened, and what changes when the file changes. */

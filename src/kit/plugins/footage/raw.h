@@ -6,7 +6,7 @@
  *           Y Y Y Y     linear.
  *
  * INVARIANT: plain arithmetic of floats in one order, so that the codes are the same on every
- * machine. Samples beyond the edge are those of the edge.
+ * machine. Samples beyond the edge repeat the edge.
  */
 #pragma once
 

@@ -16,7 +16,7 @@
 #include "process/interrupt.h"
 #include "process/spawn.h"
 
-enum { PAUSE_MICROSECONDS = 50000 }; /* between two checks for a signal to stop */
+enum { PAUSE_MICROSECONDS = 50000 }; /* the pause between two checks for a signal to stop */
 
 static struct {
   pthread_mutex_t lock;

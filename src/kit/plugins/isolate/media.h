@@ -18,10 +18,10 @@ typedef struct cs_media {
   int pipe, socket;               /* what the worker writes, and says; -1: closed */
   uint32_t number;                /* the number of the worker in the zygote */
   bool has_worker;
-  cs_words words;    /* its last ones */
+  cs_words words;    /* the last words of the worker */
   double seconds;    /* the most seconds until more arrives; 0: any */
   double shares;     /* the most seconds for all, in multiples of these; 0: any */
-  double begin;      /* its start by the clock */
+  double begin;      /* when the worker began, by the clock */
   uint64_t memory;   /* the limit; 0: any */
   atomic_bool stops; /* a read must end */
   /* Gets what the worker says, and returns whether these were no words. NULL: all are words. */

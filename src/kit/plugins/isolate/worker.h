@@ -28,7 +28,7 @@ typedef struct cs_worker_limits {
 typedef struct cs_worker {
   struct cs_worker *next;
   cs_worker_task task;
-  bool has_served;       /* it has served a reader before the current one */
+  bool has_served;       /* the process has served another reader before */
   int users;             /* readers, or the writer */
   uint32_t number;       /* in the zygote */
   int socket;            /* -1: the worker has ended */

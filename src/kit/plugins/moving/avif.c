@@ -14,9 +14,9 @@
 #include "plugins/moving/moving.h"
 #include "writers/exr/rate.h"
 
-#define SPEED 6         /* of 0 to 10: slower ones make files a few per cent smaller */
+#define SPEED 6         /* from 0 to 10: slower ones make files a few per cent smaller */
 #define LEAST_THREADS 2 /* one alone makes other bytes */
-#define DEEP_BITS 12    /* of the file, where rows have 16: the most that AVIF has */
+#define DEEP_BITS 12    /* where rows have 16, the file has the most that AVIF has */
 
 typedef struct writing {
   cs_moving *moving;
@@ -80,7 +80,7 @@ static bool is_opaque(const writing *avif) {
   return is_so;
 }
 
-/* The conversion is that of libavif, because libyuv's depends on the processor. A film whose first
+/* The conversion is libavif's own, because libyuv's depends on the processor. A film whose first
  * picture is opaque may have alpha later. */
 static avifResult convert(const writing *avif, avifImage *image) {
   avifRGBImage rgb;

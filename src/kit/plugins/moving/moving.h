@@ -27,13 +27,13 @@ typedef struct cs_moving_format {
 } cs_moving_format;
 
 struct cs_moving {
-  cs_picture_output output; /* its names are not kept */
+  cs_picture_output output; /* without names, which are not kept */
   const cs_moving_format *format;
   void *self;
   char *name, *metadata; /* owned; metadata: in XMP, see cs_moving_open */
   unsigned char *pixels; /* the pixels of the picture whose rows arrive; owned */
   size_t row;            /* bytes */
-  int32_t rows;          /* that have arrived */
+  int32_t rows;          /* rows that have arrived */
 };
 
 /* Whether a file is written by these functions: an AVIF, or a WebP of a film. */
@@ -45,7 +45,7 @@ celspan_status cs_moving_open(const cs_picture_output *output, cs_moving **out,
 /* Rows from the top; the row after the last one begins the next picture. */
 celspan_status cs_moving_rows(cs_moving *moving, int32_t count, const void *rows,
                               cs_picture_failure *failure);
-/* Ends the file, whatever it returns. */
+/* Ends the file, even if it returns an error. */
 celspan_status cs_moving_close(cs_moving *moving, cs_picture_failure *failure);
 void cs_moving_abandon(cs_moving *moving);
 

@@ -22,7 +22,7 @@
 #include "plugins/moving/moving.h"
 
 enum {
-  PATCH = 16,    /* pixels a side: those of libwebp */
+  PATCH = 16,    /* pixels a side, as in libwebp */
   PIXEL = 4,     /* bytes */
   PATIENCE = 15, /* frames for which no coding without loss is tried after one that was larger */
   HEAD = 44,     /* bytes in front of the frames */
@@ -30,7 +30,7 @@ enum {
 };
 enum { HAS_ANIMATION = 0x02, HAS_METADATA = 0x04, HAS_ALPHA = 0x10, REPLACES = 0x02 };
 #define MOST_BYTES 0xfffffff0u
-#define MOST_TIME 0xffffff /* of a frame, milliseconds */
+#define MOST_TIME 0xffffff /* milliseconds of a frame */
 
 /* Pixels from the first to before the last. */
 typedef struct box {
@@ -44,7 +44,7 @@ typedef struct writing {
   int32_t across;         /* patches in a row */
   int tolerance;
   WebPMemoryWriter coded; /* the frame that is held; empty: there is none */
-  unsigned char flags;    /* of that frame */
+  unsigned char flags;    /* flags of that frame */
   box place;
   int64_t began; /* when it is shown first, milliseconds */
   int64_t count; /* pictures */

@@ -136,7 +136,7 @@ bool is_near(const float *colour, float red, float green, float blue) {
 
 enum class Screens { None, Alike, Others };
 
-/* Whether red, green and blue of this space are those of the configuration's space for screens. */
+/* Whether red, green and blue of this space equal the configuration's space for screens. */
 Screens compare_screens(const OCIO::ConstConfigRcPtr &configuration, const char *space) {
   for (const char *name : {"sRGB", "sRGB - Texture", "Rec709", "Rec.709"}) {
     if (!configuration->getColorSpace(name))

@@ -199,7 +199,7 @@ void hide_thumbnails(Source &source, Numbers numbers, uint64_t size) {
   }
 }
 
-/* Whether the document has a channel in addition to those of its colours. Throws Failure if a
+/* Whether the document has a channel in addition to its colours. Throws Failure if a
  * channel of its colours is missing. */
 bool has_transparency(Source &source) {
   static const uint64_t colours[] = {1, 1, 1, 3, 4,

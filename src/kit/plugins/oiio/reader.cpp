@@ -103,7 +103,7 @@ void choose_layer(cs_picture_reader &reader, const cs_picture_request &request) 
   choose_channels(reader, "");
 }
 
-/* The display window is that of the header, or for a layer of a PSD that of the whole picture. */
+/* The header has the display window, or for a layer of a PSD the whole picture has it. */
 void choose_window(cs_picture_reader &reader) {
   const ImageSpec &spec = reader.spec;
   const std::string &format = reader.kind.format;

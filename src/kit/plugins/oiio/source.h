@@ -31,7 +31,7 @@ public:
   /* Whether the path still leads to the same unchanged file. */
   bool is_unchanged() const;
 
-  /* Whether the parts after the first one are not those of the file, but were put into it. */
+  /* Whether the parts after the first one do not come from the file, but were put into it. */
   bool has_stand_in = false;
 
 private:

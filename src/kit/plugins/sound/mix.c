@@ -11,7 +11,7 @@
 
 enum {
   PIECE = 4096,                    /* moments that are mixed at a time */
-  KEPT_MOMENTS = 10 * CS_MIX_RATE, /* of a sound whose samples are kept, ... */
+  KEPT_MOMENTS = 10 * CS_MIX_RATE, /* the length of a sound whose samples are kept, ... */
   KEPT_ALL = 16 * 1024 * 1024      /* ... and the most samples of all sounds */
 };
 
@@ -21,12 +21,12 @@ typedef struct part {
   int64_t origin; /* the origin of its first sample */
   double end;     /* second at which it ends by itself */
   bool is_whole;  /* the end is known exactly; otherwise it is only known to be late enough */
-  int64_t heard, silent;   /* it is heard from `heard` up to, but not including, `silent` */
+  int64_t heard, silent;   /* the sound is heard from `heard` until before `silent` */
   cs_sound_stream samples; /* owned; without one it is closed */
   int64_t place;           /* the place of the next sample that is read */
   float *kept;      /* the counted samples, if they are few, so that the file is not opened again */
   size_t capacity;  /* the capacity of the kept samples; 0: they belong to another part */
-  int32_t channels; /* of them */
+  int32_t channels; /* how many the samples have */
   int64_t moments;
 } part;
 

@@ -13,7 +13,7 @@
 typedef struct cs_sound_request {
   const char *path;  /* the path of a file, or an address that contains it (common/address.h) */
   const char *tried; /* other paths that do not exist either, for messages; NULL: none */
-  int32_t rate, channels; /* the wanted ones; 0: those of the file */
+  int32_t rate, channels; /* the wanted ones; 0: as the file has them */
   double speed;           /* 2: twice as fast, without changing the pitch; 0 and 1: unchanged */
 } cs_sound_request;
 
@@ -46,7 +46,7 @@ typedef struct cs_decoder_desc {
   const char *path;       /* for messages */
   const char *kind;       /* the name of its format in ffmpeg */
   int descriptor;         /* the descriptor of the file; borrowed until it is open */
-  int32_t rate, channels; /* the wanted ones; 0: those of the file */
+  int32_t rate, channels; /* the wanted ones; 0: as the file has them */
   double speed;           /* 1: unchanged */
 } cs_decoder_desc;
 

@@ -1,6 +1,6 @@
 /* The order of characters (FriBidi) and where lines may break (libunibreak). */
 #include "celspan/text.h"
-#include "plugins/type/type.h"
+#include "plugins/type/parts.h"
 
 #include <fribidi.h>
 #include <linebreak.h>

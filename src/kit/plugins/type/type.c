@@ -1,7 +1,7 @@
 /* If HarfBuzz lacks memory, it continues with empty tables and keeps them, so text would be wrong
  * from then on. A failed allocation sets errno, which is checked after each call. If an allocation
  * has failed, the font is dropped, and the next call makes the font again. */
-#include "plugins/type/type.h"
+#include "plugins/type/parts.h"
 
 #include <errno.h>
 #include <hb-ot.h>
@@ -273,9 +273,9 @@ static const cs_type_functions type_functions = {
     .scripts = scripts,
 };
 
-const void *celspan_art_module(void) {
-  static const cs_art_module table = {
-      .version = CS_ART_MODULE_VERSION,
+const void *celspan_type_module(void) {
+  static const cs_type_module table = {
+      .version = CS_TYPE_MODULE_VERSION,
       .parse_xml = cs_xml_parse_bytes,
       .type = &type_functions,
   };

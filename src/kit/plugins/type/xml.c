@@ -1,5 +1,5 @@
 /* XML documents through expat, element by element. */
-#include "plugins/type/type.h"
+#include "plugins/type/parts.h"
 
 /* The header declares the functions that limit the growth of entities only if this is defined; the
  * libraries of distributions are built with it. */
@@ -21,7 +21,7 @@
 typedef struct document {
   XML_Parser parser;
   const cs_xml_handler *handler;
-  cs_art_failure *failure;
+  cs_type_failure *failure;
   uint32_t depth; /* elements that are open */
 } document;
 
@@ -151,7 +151,7 @@ static celspan_status parse(document *doc, const char *bytes, size_t size) {
 }
 
 celspan_status cs_xml_parse_bytes(const char *bytes, size_t size, const cs_xml_handler *handler,
-                                  cs_art_failure *failure) {
+                                  cs_type_failure *failure) {
   failure->status = CELSPAN_OK;
   document doc = {.handler = handler, .failure = failure};
   doc.parser = create_parser(&doc);

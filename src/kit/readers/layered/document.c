@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "inside/number.h"
-#include "readers/xml/xml.h"
+#include "readers/type/xml.h"
 
 celspan_status cs_document_fail(const cs_document *document, celspan_status status,
                                 const char *format, ...) {

@@ -27,8 +27,8 @@
 typedef struct cs_document cs_document;
 
 typedef struct cs_document_format {
-  const char *member;  /* of the archive */
-  const char *purpose; /* for the message if the art module is missing */
+  const char *member;  /* a name in the archive */
+  const char *purpose; /* for the message if the type module is missing */
   /* name: without its namespace. Any error stops the reading. */
   celspan_status (*start)(cs_document *document, const char *name);
   celspan_status (*end)(cs_document *document, const char *name);

@@ -41,7 +41,7 @@ typedef struct cs_cursor {
   celspan_context *context; /* borrowed, as the input */
   const cs_input *input;
   celspan_status status;
-  int64_t at, end; /* of the file */
+  int64_t at, end; /* places in the file */
   int64_t first;   /* the offset of the bytes in the buffer */
   size_t count;
   unsigned char buffer[4096];

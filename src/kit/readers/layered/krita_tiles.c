@@ -5,7 +5,7 @@
 
 #include "readers/layered/contents.h"
 
-#define SIDE 64 /* of a tile */
+#define SIDE 64 /* pixels of a tile */
 
 typedef struct tiles_source {
   cs_rows_source base;
@@ -27,7 +27,7 @@ typedef struct tiles_rows {
   size_t count, next;
   int32_t y;
   unsigned char *tile_row;        /* SIDE rows of pixels in the form of the file */
-  unsigned char *planes, *pixels; /* of one tile: as packed, and interleaved */
+  unsigned char *planes, *pixels; /* one tile: as packed, and interleaved */
 } tiles_rows;
 
 bool cs_krita_tiles_form_of(const char *space, cs_krita_tiles_form *form) {

@@ -16,7 +16,7 @@
  *   iCCP   name, NUL, 0, profile in zlib     sRGB   that it is sRGB
  *   gAMA   a power                           cHRM   white and primaries
  *
- * The first two take precedence; without any of them the codes are those of sRGB.
+ * The first two take precedence; without any of them the codes are sRGB.
  */
 
 /* Bytes before the data in which chunks of colour are searched for. */

@@ -11,7 +11,7 @@ enum { GREY = 0, RGB = 2, INDEXED = 3, GREY_ALPHA = 4, RGBA = 6 };
 typedef struct png_source {
   cs_rows_source base;
   cs_zip_member member; /* without its name */
-  int depth, colour;    /* of the header */
+  int depth, colour;    /* as the header says */
   int channels;
 } png_source;
 

@@ -59,7 +59,7 @@ void cs_profile_of_name(const char *name, cs_profile *out) {
   set_name(out->name, name);
 }
 
-/* Whether a power is that of sRGB: programs write 1/2.2 for it. */
+/* Whether a power stands for sRGB: programs write 1/2.2 for it. */
 static bool is_srgb_power(const cs_colour_request *request) {
   static const uint32_t srgb[] = {31270, 32900, 64000, 33000, 30000, 60000, 15000, 6000};
   bool is_near = request->power == 45455;

@@ -88,14 +88,14 @@ enum { CS_PSD_RED, CS_PSD_GREEN, CS_PSD_BLUE, CS_PSD_ALPHA, CS_PSD_MASK, CS_PSD_
 typedef struct cs_psd_channel {
   bool is_there;
   cs_psd_packing packing;
-  int64_t at, end;       /* of the packed rows */
+  int64_t at, end;       /* where the packed rows are */
   int64_t sizes;         /* PACK_BITS: where the table of row sizes is */
   int32_t width, height; /* pixels */
 } cs_psd_channel;
 
 typedef struct cs_psd_mask {
-  int32_t x, y;          /* of its rectangle, from the layer's corner */
-  unsigned char beyond;  /* its value outside of the rectangle */
+  int32_t x, y;          /* where its rectangle begins, from the layer's corner */
+  unsigned char beyond;  /* the value of the mask outside of the rectangle */
   unsigned char density; /* how much the mask counts; 255: fully */
   bool is_inverted;
 } cs_psd_mask;
@@ -103,7 +103,7 @@ typedef struct cs_psd_mask {
 typedef struct cs_psd_layer {
   cs_rows_source base;
   bool is_grey;
-  int size_bytes; /* of an entry in a table of row sizes: 2, or 4 in large documents */
+  int size_bytes; /* bytes of an entry in a table of row sizes: 2, or 4 in large documents */
   cs_psd_channel channels[CS_PSD_CHANNELS];
   cs_psd_mask mask;
 } cs_psd_layer;

@@ -10,8 +10,8 @@
 #include "inside/context.h"
 #include "inside/files.h"
 #include "inside/hash.h"
-#include "readers/xml/artwork.h"
-#include "readers/xml/type.h"
+#include "readers/type/letters.h"
+#include "readers/type/type_module.h"
 
 /* ---------------------------------------------------------------- files */
 
@@ -27,7 +27,7 @@
 
 #define FILE_BYTES ((size_t)256 << 20)
 
-/* What helps when a font is missing: its name may be that of a family, or of an installed font's
+/* What helps when a font is missing: its name may be a family's, or an installed font's
  * file without the folder. */
 static const char *hint_at(const char *file) {
   const char *slash = strrchr(file, '/');
@@ -244,8 +244,8 @@ typedef struct request {
 } request;
 
 static celspan_status open_font(celspan_context *context, const request *wanted, cs_font *font) {
-  const cs_art_module *module;
-  CS_TRY(cs_artwork_module(context, "setting type", &module));
+  const cs_type_module *module;
+  CS_TRY(cs_type_module_load(context, "setting type", &module));
   font->size = wanted->size;
   CS_TRY(load_file(context, wanted->file, wanted->size, &font->bytes));
   const celspan_text_desc *desc = wanted->desc;

@@ -12,7 +12,7 @@
 #include "celspan/text.h"
 #include "inside/cache.h"
 #include "inside/geometry.h"
-#include "readers/xml/type.h"
+#include "readers/type/letters.h"
 
 typedef struct cs_font {
   cs_cache_entry entry;

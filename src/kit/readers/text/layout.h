@@ -26,7 +26,7 @@
 typedef struct cs_text_glyph {
   cs_font *font; /* borrowed from the layout */
   uint32_t glyph;
-  double x, y; /* its origin */
+  double x, y; /* the origin of the glyph */
 } cs_text_glyph;
 
 typedef struct cs_text_letter {
@@ -63,7 +63,7 @@ typedef struct cs_layout {
   /* of the letter that begins with the character, tracking included; otherwise 0 */
   double *advances;
 
-  cs_text_shaped *shaped; /* of the current line, from left to right */
+  cs_text_shaped *shaped; /* the current line, from left to right */
   size_t shaped_count, shaped_capacity;
   cs_text_glyph *glyphs;
   size_t glyph_count, glyph_capacity;

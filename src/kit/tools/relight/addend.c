@@ -105,7 +105,7 @@ typedef struct piece {
   const float *planes;
   size_t stride, plane_count;
   float scales[3][2];   /* the least number of each plane, and the step */
-  float greatest, step; /* of all planes: the greatest magnitude, and the greatest step */
+  float greatest, step; /* the greatest magnitude, and the greatest step, in all planes */
 } piece;
 
 static void find_scale(const float *in, size_t count, float scale[2]) {

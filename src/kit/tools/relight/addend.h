@@ -37,7 +37,7 @@ typedef struct cs_addend_span {
   int32_t origin;       /* GRADIENT: the column at which its colour is given */
   uint16_t kind;        /* cs_addend_kind */
   uint16_t plane_count; /* FLOATS, CODES: 1 or 3 */
-  size_t first;         /* of its values */
+  size_t first;         /* where its values begin */
 } cs_addend_span;
 
 typedef struct cs_addend {
@@ -70,7 +70,7 @@ void cs_addend_budget_finish(cs_addend_budget *budget, cs_memory *memory);
 typedef struct cs_addend_writer {
   cs_addend *addend;
   cs_addend_budget *budget; /* borrowed */
-  float *spent;             /* of the current row */
+  float *spent;             /* what the current row has used */
   cs_isa isa;
   size_t plane_count; /* 3 for colours, or 1 for the transmitted light, 1 - alpha */
   float *dense;       /* the planes of a row: numbers that are not yet in spans */

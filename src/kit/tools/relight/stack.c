@@ -45,9 +45,8 @@ struct celspan_stack {
   celspan_stack_light *own; /* the rostrum's lights */
   cs_addend *fronts, *backs;
   cs_addend base; /* the frame in its own lights */
-  cs_addend
-      /* the light through all cels; empty if media are grey, because backs[0] is used then */
-      through;
+  /* the light through all cels; empty if media are grey, because backs[0] is used then */
+  cs_addend through;
   bool is_grey;
 };
 

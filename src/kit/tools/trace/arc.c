@@ -88,7 +88,7 @@ double cs_arc_error(const cs_arc_sums *sums) {
 
 static cs_arc line_of(const cs_arc_sums *s, const moments *m) {
   double half = 0.5 * (m->xx - m->yy), root = sqrt(half * half + m->xy * m->xy);
-  /* The direction across the points is that of the smaller eigenvalue. */
+  /* The smaller eigenvalue has the direction across the points. */
   double nx = half > 0 ? -m->xy : root - half, ny = half > 0 ? root + half : -m->xy;
   double length = cs_number_length(nx, ny);
   nx = length > 0 ? nx / length : 0;

@@ -31,7 +31,7 @@ typedef struct cs_node {
 
 typedef struct cs_chain {
   int32_t x, y; /* where the chain begins */
-  size_t first; /* its directions */
+  size_t first; /* where the directions of the border begin */
   uint32_t count;
   uint32_t left, right; /* regions */
   uint32_t from, to;    /* the nodes; CS_NODE_NONE: the chain is closed */

@@ -165,7 +165,7 @@ static void add_line(sums *s, const cs_points *points, const cs_node *node) {
     return;
   mx /= n, my /= n;
   xx = xx / n - mx * mx, xy = xy / n - mx * my, yy = yy / n - my * my;
-  /* The direction across the points, that of the smaller eigenvalue. */
+  /* The direction across the points: the smaller eigenvalue has it. */
   double half = 0.5 * (xx - yy), root = sqrt(half * half + xy * xy);
   double nx = half > 0 ? -xy : root - half, ny = half > 0 ? root + half : -xy;
   double length = cs_number_length(nx, ny);

@@ -177,7 +177,7 @@ static void fill_widths(line *n) {
 
 static void measure(const liner *l, line *n) {
   make_even(n, 2, EVENING);
-  /* The directions are those of the places before they are moved. */
+  /* The directions are found before the places are moved. */
   for (size_t i = 0; i < n->count; i++) {
     cs_station place = n->places[i];
     double depth = 0.5 * place.v[2];

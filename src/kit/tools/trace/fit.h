@@ -24,7 +24,7 @@
 
 typedef struct cs_piece {
   bool is_line;
-  celspan_point control[2]; /* of a cubic */
+  celspan_point control[2]; /* inner points of a cubic */
   celspan_point to;
 } cs_piece;
 

@@ -23,7 +23,7 @@ typedef struct cs_region_run {
 } cs_region_run;
 
 typedef struct cs_region {
-  int32_t x, y; /* its first pixel */
+  int32_t x, y; /* the first pixel of the region */
   uint32_t area;
   unsigned char label;
 } cs_region;

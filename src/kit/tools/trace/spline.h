@@ -1,7 +1,7 @@
 /* Points with widths as a cubic B-spline with few control points: uniform, clamped or periodic, as
  * strokes are drawn.
  *
- * The control points are those of the least squares of all distances, by conjugate gradients; their
+ * The control points follow from the least squares of all distances, by conjugate gradients; their
  * number grows until no point is farther away than the tolerance.
  */
 #pragma once

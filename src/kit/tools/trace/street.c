@@ -27,10 +27,9 @@ typedef struct search {
   double weights[CORNERS];
   int count;
   place nearest;
-  double left,
-      /* the least value of the left places in the direction of the nearest point, and the
-       * greatest of the right places */
-      right;
+  /* in the direction of the nearest point: the least value of the left places, and the greatest of
+   * the right ones */
+  double left, right;
 } search;
 
 static double dot(const place *a, const place *b) {

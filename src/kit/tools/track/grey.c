@@ -84,14 +84,14 @@ void cs_grey_levels_finish(cs_grey_levels *levels) {
 #define SQUARE 3 /* the radius over which slopes are summed */
 /* of values in 0..1, summed over a square: a smaller strength is noise */
 #define LEAST_STRENGTH 2e-4
-#define LEAST_SHARE 0.005 /* of the strongest corner's strength */
+#define LEAST_SHARE 0.005 /* share of the strongest corner's strength */
 
 typedef struct candidate {
   float strength;
   int32_t x, y;
 } candidate;
 
-/* The strongest comes first; those of equal strength are ordered from top to bottom and from left
+/* The strongest comes first; equally strong ones are ordered from top to bottom and from left
  * to right. */
 static inline bool precedes(const candidate *a, const candidate *b) {
   if (a->strength != b->strength)

@@ -11,7 +11,7 @@ enum { MOST_UNKNOWNS = 8, SAMPLES = 300, REFINEMENTS = 12 };
 
 #define TUKEY 4.685          /* the distance at which a pair's weight becomes 0, in deviations */
 #define LEAST_DEVIATION 0.02 /* pixels: the least error of the place of a patch */
-#define LEAST_PIVOT 1e-10    /* of equations whose numbers are near 1 */
+#define LEAST_PIVOT 1e-10    /* for equations whose numbers are near 1 */
 
 /* ---------------------------------------------------------------- linear equations */
 

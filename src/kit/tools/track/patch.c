@@ -8,7 +8,7 @@ enum { MOST_STEPS = 25, WIDE_SIDE = CS_PATCH_SIDE + 2 };
 
 #define SETTLED 0.002        /* pixels: a step shorter than this is the last one */
 #define LONGEST_STEP 3.0     /* pixels */
-#define LEAST_DEVIATION 1e-3 /* of values in 0..1; a flatter patch is noise */
+#define LEAST_DEVIATION 1e-3 /* for values in 0..1; a flatter patch is noise */
 
 /* ---------------------------------------------------------------- sampling */
 

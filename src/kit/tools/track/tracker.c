@@ -12,7 +12,7 @@
  * Where that fails, some patches are searched for all around the last place, and the motion that
  * these agree on is the guess.
  *
- * INVARIANT: patches are those of the first frame all the way, so that errors do not add up.
+ * INVARIANT: patches come from the first frame all the way, so that errors do not add up.
  */
 #include <math.h>
 #include <string.h>
@@ -32,7 +32,7 @@ enum { LEAST_REGION = 2 * CS_PATCH_RADIUS, MOST_SIDE = 1 << 16 };
 enum { SEARCHED_CORNERS = 60, SEARCH_RADIUS = 14 };
 
 #define LEAST_LIKENESS 0.8     /* between a patch and the place where it is found */
-#define LEAST_FAR_LIKENESS 0.6 /* the same for a search over larger distances */
+#define LEAST_FAR_LIKENESS 0.6 /* the least likeness after a search over larger distances */
 #define COARSE_TOLERANCE 3.0 /* pixels: the greatest distance of a corner from the common motion */
 #define FINE_TOLERANCE 1.0
 /* pixels between a corner and the place to which the search in the other direction leads */

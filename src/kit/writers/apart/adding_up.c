@@ -1,4 +1,4 @@
-/* The reasons are those of the fold (engine/compose/over.h): a layer over another one is
+/* The reasons lie in the fold (engine/compose/over.h): a layer over another one is
  * e + t * e', with the same t for the three channels, and nothing is done to the result. */
 #include <math.h>
 #include <stdio.h>

@@ -30,11 +30,11 @@ typedef struct exr_writing {
   size_t count;            /* layers, with the frame */
   size_t channel_count;
   cs_exr_channel *channels;
-  char (*names)[CS_EXR_NAME + 1]; /* of the channels of layers */
+  char (*names)[CS_EXR_NAME + 1]; /* names of the channels of layers */
   char *list;                     /* the names of the layers */
   size_t list_size;
-  unsigned char *rows; /* of all layers, one after the other, and of the mattes */
-  void *memory;        /* of the file */
+  unsigned char *rows; /* all layers, one after the other, and the mattes */
+  void *memory;        /* what the file is made in */
   size_t memory_size;
   cs_exr exr;
   cs_file *file;
@@ -128,7 +128,7 @@ static bool put_bytes(void *user, uint64_t offset, const void *bytes, size_t siz
   return w->status == CELSPAN_OK;
 }
 
-/* The file's own error, or that of packing, which fails only without memory. */
+/* The file's own error, or an error of packing, which fails only without memory. */
 static celspan_status conclude(const exr_writing *w, bool is_good) {
   return w->status != CELSPAN_OK ? w->status
          : is_good               ? CELSPAN_OK
@@ -155,7 +155,7 @@ static celspan_status write_picture(exr_writing *w, const cs_exr_picture *pictur
   return write_rows(w);
 }
 
-/* Room for all attributes: four texts, timing, and those of mattes. */
+/* Room for all attributes: four texts, timing, and the mattes'. */
 enum { ATTRIBUTES = 6 + CS_CRYPTOMATTE_ATTRIBUTES };
 
 static size_t list_attributes(const exr_writing *w, const cs_exr_timing *timing,

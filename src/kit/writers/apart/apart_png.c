@@ -16,7 +16,7 @@ static celspan_status check(cs_apart_writing *w) {
                        w->path);
 }
 
-/* The contents that are noted of a frame are those of its own file. */
+/* The contents that are noted of a frame are in its own file. */
 static celspan_status put_frame(cs_apart_writing *w, const celspan_frame_desc *picture,
                                 const char *path, bool is_noted) {
   celspan_context *context = w->context;

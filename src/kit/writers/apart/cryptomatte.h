@@ -29,14 +29,14 @@ typedef struct cs_cryptomatte {
   cs_sources sources; /* the frames of the steps, as floats */
   int32_t width;
   int32_t lines;         /* rows that are made together */
-  unsigned char *alphas; /* their pixels */
+  unsigned char *alphas; /* the pixels of these rows */
   float *weights; /* the weights of a pixel, one a matte, for each row that is made together */
   uint32_t *ids;  /* the ids of the mattes */
   char *manifest;
   size_t manifest_size;                     /* as allocated */
   const char *layer;                        /* "CryptoCel" or "CryptoName" */
   char keys[CS_CRYPTOMATTE_ATTRIBUTES][40]; /* the names of the attributes */
-  char names[CS_CRYPTOMATTE_VALUES][16];    /* of the channels */
+  char names[CS_CRYPTOMATTE_VALUES][16];    /* names of the channels */
 } cs_cryptomatte;
 
 /* lines: the most rows of one call. which: not NONE. Must be finished, also after an error. Errors:

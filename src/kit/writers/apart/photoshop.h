@@ -20,7 +20,7 @@
 #include "inside/sinks.h"
 #include "writers/apart/apart.h"
 
-enum { CS_PHOTOSHOP_CHANNELS = 4 }; /* of a layer */
+enum { CS_PHOTOSHOP_CHANNELS = 4 }; /* channels of a layer */
 
 /* The packed rows of a picture, which wait. */
 typedef struct cs_photoshop_rows {

@@ -68,7 +68,7 @@ static size_t pack_bits(const unsigned char *row, size_t size, unsigned char *ou
 /* The values of one channel of a row as the file has them. */
 static void take_plane(const photoshop_sink *sink, int channel) {
   unsigned char *out = sink->plane;
-  size_t size = sink->row_size / (size_t)sink->document->base.width / 4; /* of a value */
+  size_t size = sink->row_size / (size_t)sink->document->base.width / 4; /* size of a value */
   const unsigned char *from = sink->row + (size_t)channel * size;
   for (int32_t x = 0; x < sink->document->base.width; x++, from += 4 * size, out += size) {
     out[0] = from[size - 1];
@@ -214,7 +214,7 @@ static celspan_status begin(void *user, celspan_context *context, int32_t width,
   return CELSPAN_OK;
 }
 
-/* The rows of the merged picture wait until those of all layers are in the document. */
+/* The rows of the merged picture wait until the rows of all layers are in the document. */
 static celspan_status end(void *user, celspan_context *context, celspan_status outcome) {
   photoshop_sink *sink = user;
   cs_photoshop *document = sink->document;

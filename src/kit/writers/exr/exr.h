@@ -74,7 +74,7 @@ typedef struct cs_exr {
   const cs_exr_picture *picture;
   cs_exr_target target;
   uint64_t at;   /* the offset of the next bytes */
-  uint64_t list; /* that of the places of the chunks */
+  uint64_t list; /* where the list of the places of chunks is */
   size_t row;    /* bytes of one row */
   int lines;     /* rows of a chunk */
   int32_t done;  /* rows */

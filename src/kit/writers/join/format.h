@@ -40,7 +40,7 @@ enum { CS_JOIN_START = 26, CS_JOIN_PIECE = 1 << 16 };
 
 typedef struct cs_joining {
   cs_file *file;             /* the file that is made */
-  celspan_context *context;  /* of the call in progress, for callbacks of the library spanfile */
+  celspan_context *context;  /* the call's in progress, for callbacks of the library spanfile */
   cs_deflate_sum sum;        /* PNG: of all rows so far */
   spanfile_joiner *spanfile; /* span files; owned */
   unsigned char extension[CS_TGA_EXTENSION];

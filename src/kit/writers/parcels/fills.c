@@ -12,7 +12,7 @@
 
 enum { SAMPLES = 64, STRETCHES = 256 /* between stops, at most */ };
 #define GOOD 0.6            /* codes: how far colours may be from a straight line */
-#define BESIDE (1.0 / 4096) /* of a stretch: how near to its ends colours are those of the ends */
+#define BESIDE (1.0 / 4096) /* so near to an end of a stretch, colours count as the end's */
 
 /* ---------------------------------------------------------------- stops */
 
@@ -200,7 +200,7 @@ static bool place_radial(const planefile_axis *axis, const gradient *g, const cs
   return is_finite;
 }
 
-/* *out stays clear where vectors cannot say it. */
+/* *out stays clear where no gradient of vectors is the same. */
 static celspan_status make_gradient(celspan_context *context, const celspan_plane *plane,
                                     const planefile_band *band, uint32_t cell, cs_fill *out,
                                     cs_parcels *parcels) {

@@ -19,7 +19,7 @@ typedef struct collecting {
   const celspan_plane *plane;
   cs_fill_table table;
   cs_frame_sides sides;
-  uint32_t *fills; /* of the cells of a band; before that, whether all their borders face them */
+  uint32_t *fills; /* fills of a band's cells; before, whether all borders face them */
   size_t capacity;
 } collecting;
 

@@ -2,7 +2,7 @@
  *
  *     plane --cells--> fills (fills.c)                  +-------+-----+
  *           --borders--> arcs (arcs.c) --> parcels      |   1   a  2  |     the arc a is the border
- *                        (make.c)                    +-------+-----+     of parcel 1 and of 2
+ *                        (make.c)                       +-------+-----+     of parcel 1 and of 2
  *
  * How to use them: cs_parcels_make, then for each fill that is not clear its loops, for each loop
  * its walks, for each walk its arc, down or up. The end of a walk and the beginning of the next one
@@ -38,14 +38,14 @@ typedef struct cs_fill_stop {
 /* Between stops, codes are mixed as they are, which is within about one code of the plane. */
 typedef struct cs_fill {
   cs_fill_kind kind;
-  bool is_opaque;        /* of a picture: whether that is certain */
+  bool is_opaque;        /* a picture is certainly opaque */
   unsigned char code[4]; /* FLAT */
   size_t stop, stop_count;
   celspan_point from, to; /* LINEAR: where 0 and 1 are */
   /* RADIAL: x' = m0 x + m1 y + m2, y' = m3 x + m4 y + m5 are film units, of a gradient with its
    * focus at 0, 0, where 0 is, and the circle of 1 about centre, 0 */
   double matrix[6], centre, radius;
-  size_t loop, loop_count; /* of its parcel */
+  size_t loop, loop_count; /* loops of its parcel */
 } cs_fill;
 
 /* A line has its ends alone, in the first and the last point. */
@@ -82,7 +82,7 @@ typedef struct cs_parcels {
   size_t arc_count, arc_capacity, curve_count, curve_capacity;
   size_t walk_count, walk_capacity, loop_count, loop_capacity;
   int32_t columns, rows; /* the steps of the plane's grid, across and down, in its units */
-  bool is_sum;           /* of several pictures, so that it has no areas */
+  bool is_sum;           /* it is the sum of several pictures and has no areas */
 } cs_parcels;
 
 enum { CS_PARCEL_ARCS = 1000000 }; /* at most */

@@ -9,7 +9,7 @@
 #include "writers/parcels/making.h"
 
 enum { HEIGHTS = 32, HEIGHTS_MOST = 288, ROOT_STEPS = 40 };
-#define NEAR 4e-6 /* of the width: arcs that are nearer than this are at one place */
+#define NEAR 4e-6 /* share of the width: arcs that are nearer are at one place */
 
 /* An arc at a height, and where. */
 typedef struct cs_passing {

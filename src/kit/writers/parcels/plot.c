@@ -317,7 +317,7 @@ static celspan_status put_under(drawing *d) {
 
 /* A file of drawings that is being written. */
 struct cs_plot {
-  cs_plot_text text; /* its bytes */
+  cs_plot_text text; /* the bytes of the file */
   cs_plotter to;
   cs_plot_desc desc;
   bool is_in_page;

@@ -28,8 +28,8 @@ typedef struct cs_plot_desc {
 /* What a drawing became. */
 typedef struct cs_plot_facts {
   size_t areas, curves, pictures;
-  int32_t picture_width, picture_height; /* of the largest picture */
-  bool is_picture;                       /* there is nothing else; the context says why */
+  int32_t picture_width, picture_height; /* the largest picture */
+  bool is_picture;                       /* the plane is one picture; the context says why */
 } cs_plot_facts;
 
 /* A file that is being written: SVG of one page, or PDF of any number of them. */

@@ -17,7 +17,7 @@ typedef struct cs_plot_text {
   double grid;              /* steps in a unit */
   int64_t x, y;             /* where the path is */
   int64_t begin_x, begin_y; /* where it began */
-  char command;             /* its last one; 0: none */
+  char command;             /* the last command of the text; 0: none */
   celspan_status status;    /* the first failure: nothing is written after it */
 } cs_plot_text;
 

@@ -22,7 +22,7 @@ typedef struct cs_plotter_page {
 typedef enum cs_plotter_kind {
   CS_PLOTTER_AREA,   /* filled by the even-odd rule */
   CS_PLOTTER_STROKE, /* with round ends, as thick as its group says */
-  CS_PLOTTER_CLIP    /* of the group that begins after it; by the even-odd rule */
+  CS_PLOTTER_CLIP    /* cuts the group that begins after it; by the even-odd rule */
 } cs_plotter_kind;
 
 typedef struct cs_plotter_path {

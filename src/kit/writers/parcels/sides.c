@@ -44,7 +44,7 @@ static bool is_one(int64_t fill, uint64_t squares, const cs_parcels *parcels) {
 }
 
 celspan_status cs_sides_put(celspan_context *context, cs_frame_sides *sides, cs_parcels *parcels) {
-  cs_side_change sum = {.height = 0}; /* its height: the top of what it is for */
+  cs_side_change sum = {.height = 0}; /* height: the top of the part that the sum is for */
   sort_changes(sides->changes, sides->count);
   for (size_t i = 0; i < sides->count;) {
     const cs_side_change change = sides->changes[i], before = sum;

@@ -14,7 +14,7 @@ struct cs_plane_film {
   celspan_plane_desc desc;
   planefile_grid grid;
   bool has_last;
-  cs_hash last;          /* of the scene of the latest frame */
+  cs_hash last;          /* the hash of the scene of the latest frame */
   celspan_status status; /* the result of writing bytes */
 };
 

@@ -25,7 +25,7 @@
 
 CS_DESCRIBE(celspan_plane_desc, height, .depth = 16)
 
-#define BYTES_MOST ((uint64_t)1 << 30) /* of a file */
+#define BYTES_MOST ((uint64_t)1 << 30) /* bytes of a file */
 
 celspan_status cs_plane_report(celspan_context *context, planefile_status status) {
   if (status == PLANEFILE_OK)

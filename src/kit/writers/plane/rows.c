@@ -14,7 +14,7 @@ struct cs_plane_rows {
   const celspan_plane *plane;
   planefile_view view;
   planefile_drawer *drawer; /* NULL: no row has been asked for */
-  int32_t next;             /* its next row */
+  int32_t next;             /* the row that comes next */
   cs_row row;
 };
 

@@ -9,7 +9,7 @@
 #include "writers/record/pictures.h"
 
 #define SAMPLES 64              /* samples of a table, from one stop to the next */
-#define TOLERANCE (1.0 / 16384) /* of a table */
+#define TOLERANCE (1.0 / 16384) /* the error that a table may have */
 
 /* A group that was entered. */
 typedef struct entered_group {

@@ -8,7 +8,7 @@
 #include "writers/record/pictures.h"
 #include "writers/record/programs.h"
 
-#define COUNT_MOST (UINT32_MAX / 4) /* of anything */
+#define COUNT_MOST (UINT32_MAX / 4) /* more of anything is refused */
 #define WINDINGS_MOST ((size_t)1 << 24)
 
 typedef struct recorder {

@@ -10,7 +10,7 @@
 
 typedef struct cs_still {
   celspan_picture_info info;
-  celspan_exposure exposure; /* its rostrum is owned; NULL for a span file or a plane */
+  celspan_exposure exposure; /* the rostrum is owned; NULL for a span file or a plane */
   celspan_space space;       /* the space of the frame */
   cs_span_reader *spans;     /* owned; NULL for any other picture */
   celspan_plane *plane;      /* likewise; its info has the size in film units, rounded */

@@ -26,7 +26,7 @@ typedef struct cs_tile_inputs {
 typedef struct cs_tile_log {
   char path[4096];
   cs_hash digest;
-  cs_hash check; /* of all lines so far, without their end */
+  cs_hash check; /* a hash of all lines so far, without their end */
   cs_tile_row *rows;
   size_t count, capacity;
   size_t written; /* rows whose line is written */

@@ -22,7 +22,7 @@ typedef struct cs_tile_plan {
 
 typedef struct cs_tile_plan_desc {
   const cs_pyramid *pyramid;
-  const celspan_frame_desc *frame; /* its film size, and the crop to make */
+  const celspan_frame_desc *frame; /* the film's size, and the crop to make */
   int32_t levels[2];               /* first and last; on later levels, only the places are made */
   const char *places;              /* a file of lines X Y WIDTH NAME; NULL: no places */
 } cs_tile_plan_desc;

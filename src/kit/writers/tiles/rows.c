@@ -259,7 +259,7 @@ typedef struct tile_row_job {
   cs_tile_rows *rows;
   int32_t row, row_count; /* a row of tiles; its rows of pixels */
   atomic_int failed;      /* 1 + the worker that failed first; 0: none */
-  celspan_status status;  /* of that worker, with its sentence in its writer's context */
+  celspan_status status;  /* how that worker ended; its sentence is in its writer's context */
 } tile_row_job;
 
 static celspan_status write_share(tile_row_job *job, cs_tile_writer *writer, int32_t first,

@@ -30,7 +30,7 @@ function show_tiles(canvas, pyramid, hooks) {
   const calm = matchMedia("(prefers-reduced-motion: reduce)");
   const lowest = pyramid.tiles.reduce((least, [level]) => Math.min(least, level), top);
 
-  let width = 1, height = 1, ratio = 1; // of the window, in pixels of the page; of the screen
+  let width = 1, height = 1, ratio = 1; // the window, in pixels of the page and of the screen
   let view = { x: pyramid.width / 2, y: pyramid.height / 2, scale: 1 }, goal = { ...view };
   let flight = null; // a path of its own to the goal
   let drawn_at = 0, is_asked = false;

@@ -22,7 +22,7 @@ end
 
 local BYTES_MOST = 1 << 18 -- larger scripts are not examined: they are mostly data
 
-local calls, parents = {}, {} -- from manual.types, which is read when a script needs it
+local calls, parents = {}, {} -- filled from manual.types when a script needs them
 
 --- The class of VALUES that a class extends; otherwise the class itself.
 local function family(class)

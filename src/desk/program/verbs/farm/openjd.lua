@@ -19,7 +19,7 @@ local MOST_PARAMETERS, MOST_TEXT, MOST_NAME = 50, 1024, 128 -- 1.1, 2.5, 1.1.1
 local MOST_FILE = 255 -- bytes of the name of a file
 local MOST_ABOUT, MOST_LABEL, MOST_IDENTIFIER = 2048, 64, 64 -- 7.2, 2.6, 7.1
 
-local counts_frames = not job.strips and not job.rows -- else it counts strips, or parts of rows
+local counts_frames = not job.strips and not job.rows -- or it counts strips, or parts of rows
 
 local function split(path) return path:match "^(.*)/([^/]*)$" end
 
@@ -126,7 +126,7 @@ local function given_values()
   return values
 end
 
---- Names of parameters: those of --set, and, if there is room for all and neither --set-from nor
+--- Names of parameters: all of --set, and, if there is room for all and neither --set-from nor
 --- --table gives values, the others too. files: how many other parameters there will be. Returns
 --- them with what the script declares of each.
 local function offered(given, files)

@@ -1,10 +1,10 @@
 --- What layers of Lottie cannot say: the cels of a frame from the rearmost to the last one that
---- needs it, with the ground, as they look together. These are areas (core.parcels), or else a
+--- needs it, with the ground, as they look together. These are areas (native.parcels), or else a
 --- picture. Equal ones of several frames are one.
 local program = ...
 local affine = require "celspan.affine"
 local celspan = require "celspan"
-local core = require "celspan.core"
+local native = require "celspan.native"
 
 local IMAGE_MOST = 8192 -- units of a side of an image, which is --scale pixels each
 local NEAR = 1e-6 -- pixels
@@ -110,14 +110,14 @@ end
 --- What a picture shows: exposures.
 local function rear_of(exposures, cut)
   if cut == math.huge then return exposures end
-  return { { core.scene_rear(exposures[1][1], cut), 1 } }
+  return { { native.scene_rear(exposures[1][1], cut), 1 } }
 end
 
 --- A text that is equal for equal exposures; nil if they have to be drawn each time.
 local function key_of(exposures)
   local parts = {}
   for i, exposure in ipairs(exposures) do
-    local key = core.scene_key(exposure[1])
+    local key = native.scene_key(exposure[1])
     if not key then return nil end
     parts[i] = ("%s %.17g"):format(key, exposure[2])
   end
@@ -164,7 +164,7 @@ end
 function Bake:parcels_of(picture)
   local plane, message = celspan.plane(program.still(self.script, picture.shown))
   if not plane then return nil, message end
-  return core.parcels(plane)
+  return native.parcels(plane)
 end
 
 local SIDE_MOST = 16384 -- pixels: more than players can hold

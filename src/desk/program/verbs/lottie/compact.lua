@@ -2,7 +2,7 @@
 --- for those that rlottie needs before others.
 local json = require "celspan.json"
 
-local DIGITS = 3 -- after the point, where a number says nothing else
+local DIGITS = 3 -- after the point, unless a number has digits of its own
 
 local early = { ty = 1, ddd = 2, p = 3 }
 

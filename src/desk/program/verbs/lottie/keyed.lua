@@ -108,7 +108,7 @@ function keys.can_lean(maps)
   return true
 end
 
---- The turn in degrees and the scales of a map, as near as possible to those of the frame before.
+--- The turn in degrees and the scales of a map, as near as possible to the frame before.
 local function split(map, before)
   local a, b, _, d, e = table.unpack(map)
   local across, down = math.sqrt(a * a + d * d), math.sqrt(b * b + e * e)
@@ -176,7 +176,7 @@ local function count(property) return property.a == 1 and #property.k or 0 end
 --- The transform of a layer about an anchor.
 local function about(maps, start, box, anchor)
   local turns, scales, places, skews = values_of(maps, anchor)
-  local reach = 0 -- of the art, from the anchor
+  local reach = 0 -- how far the art extends from the anchor
   for _, x in ipairs { box[1], box[3] } do
     for _, y in ipairs { box[2], box[4] } do
       reach = math.max(reach, math.sqrt((x - anchor[1]) ^ 2 + (y - anchor[2]) ^ 2))

@@ -9,7 +9,7 @@ local affine = require "celspan.affine"
 local program, text, keys, shapes, tracks = ...
 
 local IDENTITY = affine.translation(0, 0)
-local OPACITY = 0.15 -- of 100: how far an opacity may be from that of the frame
+local OPACITY = 0.15 -- how far an opacity in 0..100 may be from the frame's
 
 local Layers = {}
 Layers.__index = Layers

@@ -1,4 +1,4 @@
---- Shapes of Lottie from what a frame's structure holds (core.scenery): outlines with their fills.
+--- Shapes of Lottie from a frame's structure (native.scenery): outlines with their fills.
 local affine = require "celspan.affine"
 
 local text, keys, paint_of = ...
@@ -291,7 +291,7 @@ local function line_of(line)
   return { pieces = encoded(line.contours, layout, true), paint = painted(stroke, layout) }
 end
 
---- The areas of parcels (core.parcels), and the lines below them.
+--- The areas of parcels (native.parcels), and the lines below them.
 function shapes.parcels(parcels)
   local areas, lines = {}, {}
   for i, parcel in ipairs(parcels) do areas[i] = area_of(parcel) end

@@ -1,6 +1,6 @@
---- Fills of Lottie: colours and gradients of what a frame's structure holds (core.scenery).
+--- Fills of Lottie: colours and gradients of what a frame's structure holds (native.scenery).
 local text, is_coded = ...
-local core = require "celspan.core"
+local native = require "celspan.native"
 
 local still = text.still
 
@@ -13,7 +13,7 @@ local DEEPEST = 6 -- halvings of the way between two stops
 local function code(light)
   if light <= 0 then return 0 end
   if light >= 1 then return 1 end
-  return core.code(light)
+  return native.code(light)
 end
 
 --- What a film mixes of a pigment in this light: codes, or light.
@@ -47,7 +47,7 @@ local function between(a, b)
   return middle
 end
 
---- A premultiplied stop as straight codes; where it is clear, those of `near`.
+--- A premultiplied stop as straight codes; where it is clear, the codes of `near`.
 local function straight(stop, near)
   local alpha = stop[5]
   if alpha <= 0 then

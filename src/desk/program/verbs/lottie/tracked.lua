@@ -65,7 +65,7 @@ end
 
 --- A cel, or an object in the group `around`, as an item. fade: of that group.
 function tracks.item(placed, around, fade)
-  local data = placed.data or placed -- of a cel: itself
+  local data = placed.data or placed -- a cel is its own data
   local map = around and affine.compose(around.map, placed.matrix) or placed.matrix
   local kept = data
   if data.kind == "outline" then

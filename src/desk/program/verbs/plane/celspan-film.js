@@ -110,7 +110,7 @@ class CelspanFilm extends (globalThis.HTMLElement ?? class {}) {
   static observedAttributes = ["src", "width", "controls", "poster", "aria-label"];
 
   #root; #size;
-  #life = null;       // of the file
+  #life = null;       // of the file that is shown or loaded
   #plane = null;      // null: it is not there yet, or cannot be shown
   #viewer = null;
   #pyramid = null;
@@ -370,7 +370,7 @@ class CelspanFilm extends (globalThis.HTMLElement ?? class {}) {
 
   // ---- properties
 
-  get #unit() { return this.#plane.width / this.#pyramid.width; } // of the film, in a pixel
+  get #unit() { return this.#plane.width / this.#pyramid.width; } // units of the film in a pixel
 
   get paused() { return this.#is_paused; }
   get duration() {

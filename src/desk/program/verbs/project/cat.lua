@@ -4,7 +4,7 @@ local keys = require "celspan.keys"
 local when = require "timing"
 
 -- A part of a drawing is a line through points { x, y, width }; the paws are on 0, 0. The head has
--- a place and a tilt. Parts that a drawing does not have are those of the first drawing.
+-- a place and a tilt. Parts that a drawing does not have are taken from the first drawing.
 local drawings = {
   sit = {
     back = { { -30, -34, 74 }, { -30, -82, 66 }, { -2, -122, 50 }, { 12, -142, 40 } },
@@ -69,7 +69,7 @@ for part, points in pairs(drawings.sit) do
   pose[part] = keys(track)
 end
 
-local FROM, TO, HEIGHT = 230, 730, 165 -- of the leap
+local FROM, TO, HEIGHT = 230, 730, 165 -- where the leap begins and ends, and how high it goes
 
 --- The place of the paws during the leap, from the ridge of the roof: a parabola.
 local function place(time)

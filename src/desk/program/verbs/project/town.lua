@@ -2,7 +2,7 @@
 local celspan = require "celspan"
 
 local W, H = 1280, 720
-local town = { ridge = 508 } -- of the roof: its y
+local town = { ridge = 508 } -- the roof's y
 
 --- A gradient from top to bottom. Distant things have the colour of the air, most at their foot.
 local function fade(top, foot, ...)
@@ -85,7 +85,7 @@ town.roof = celspan.union {
   celspan.rect { -300, y - 3, 1156, 9, radius = 4, texture = "#3b2c66" },
 }
 
-town.panes = {} -- of two skylights
+town.panes = {} -- the panes of two skylights
 for _, left in ipairs { 330, 560 } do
   for n = 0, 3 do
     town.panes[#town.panes + 1] = celspan.rect { left + n % 2 * 44, y + 60 + n // 2 * 38, 39, 33,

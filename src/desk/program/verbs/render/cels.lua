@@ -2,7 +2,7 @@
 --- are searched first, then the rest of the film.
 local program, request, script, numbers = ...
 
-local FRAMES_MOST = 10000 -- of the rest of the film
+local FRAMES_MOST = 10000 -- frames that are looked through
 local NAMES_MOST = 12 -- in the message
 
 local wanted, names, known = request.cel, {}, {}

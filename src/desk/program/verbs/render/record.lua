@@ -20,7 +20,7 @@ local program, request, script, view = ...
 
 local HEAD = "celspan frames 1\n"
 local LINE = "^frame (%-?%d+) (%x+) (%d+) (%x+) (%S+)$"
-local DIGITS = 32 -- of a hash
+local DIGITS = 32 -- digits of a hash
 local PATH_MOST = 4111 -- bytes
 local MISSING = { [2] = true, [20] = true } -- ENOENT, ENOTDIR
 -- What decides how a file of all frames comes out, and is not in the options of its frames.
@@ -106,7 +106,7 @@ end
 
 -- ---------------------------------------------------------------- a file of all frames
 
-local whole -- its key so far; nil: it contains a procedure
+local whole -- the key of the film so far; nil: it contains a procedure
 
 --- Whether the file may be kept; only then it is of use to know its key.
 function record.knows_whole() return not request.hash and (request.force or lines[0] ~= nil) end

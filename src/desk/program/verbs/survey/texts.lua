@@ -18,8 +18,8 @@ texts.__index = texts
 
 local MOST = 1000            -- texts that are kept
 local CONTRAST, COVERED = 3, 0.9
-local SMALL = 1 / 72          -- of the frame's height: 15 of 1080 pixels
-local CROSSED = 0.05         -- the share of letters that those of another text may cover
+local SMALL = 1 / 72          -- share of the frame's height: 15 of 1080 pixels
+local CROSSED = 0.05         -- the share of letters that another text may cover
 local LOOKED = 50            -- texts of a frame, from the farthest, that are measured and compared
 local CLEAR, RATIO = 0.6, 3  -- the least fade of such texts, and the greatest ratio of their sizes
 local EM, PIXELS = 24, 1 << 14 -- the size of letters, and of pictures, for measuring

@@ -12,7 +12,7 @@ import { writeAddress } from "/values.js";
 const comparing = { isOn: null, sent: Promise.resolve() };
 
 /** The second film beside the first: that of the second script, or the same with other values,
- * which are those of the first to begin with. */
+ * which begin with the values of the first. */
 export function swapComparing() {
   const isOn = comparing.isOn = !(comparing.isOn ?? isComparing());
   if (isOn && beside.given.size === 0 && !state.has_two) {

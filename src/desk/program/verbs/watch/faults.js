@@ -42,12 +42,12 @@ export function showNews() {
     : bad && state.shown && !currentFault() ? found : "");
 }
 
-/** The errors of the film, those of one text together: { text, frames, all }. */
+/** The errors of the film, errors of one text together: { text, frames, all }. */
 function groupFaults() {
   const groups = new Map();
   for (const fault of state.errors) {
     const text = fault.message.replace(`frame ${fault.frame}: `, "")
-      .replace(/frame -?\d+ of (?=\x27)/, ""); // of a shot
+      .replace(/frame -?\d+ of (?=\x27)/, ""); // a fault of a shot names its frame, too
     if (!groups.has(text)) groups.set(text, { text, frames: [], fault });
     if (fault.frame !== undefined) groups.get(text).frames.push(fault.frame);
   }

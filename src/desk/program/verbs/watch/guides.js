@@ -3,7 +3,7 @@ import { beside, element, here, main, part, setPressed } from "/state.js";
 import { drawTimeline } from "/timeline.js";
 
 export const GUIDES = ["safe", "fields"]; // shown over the picture, one at a time
-const RECTANGLES = 12;           // of a field guide: rectangles around its middle
+const RECTANGLES = 12;           // rectangles of a field guide, around its middle
 
 export function setGround(ground) {
   here("ground").value = ground;

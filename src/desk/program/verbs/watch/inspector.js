@@ -114,7 +114,7 @@ function hitItem(hit) {
 
 const headOf = textContent => element("li", { className: "heading", textContent });
 
-/** The items of a list, those of each shot of a cut below its name. */
+/** The items of a list; in a cut, each shot's items below its name. */
 export function belowShots(list, itemOf, makeHead = headOf) {
   let last;
   return list.flatMap(one => {

@@ -10,7 +10,7 @@ import { look, nameOf } from "/pictures.js";
 import { cels, foldButton, folded, queryCels, switchesOf } from "/rows.js";
 import { buildOf, desk, element, here, main, play, refill, state, view } from "/state.js";
 
-const TREE_MOST = 2000; // of the server's answer
+const TREE_MOST = 2000; // bytes of the server's answer
 const tree = { list: [], address: "" };
 
 export const celNames = () => tree.list.map(one => one.cel).filter(Boolean);

@@ -65,7 +65,7 @@ export async function outline(place) {
   Object.assign(outlined, { place, runs: [], count: place?.count ?? outlined.count });
   look();
   drawRuler();
-  if (!place?.count || !state.shown) return; // of a line that an editor has named
+  if (!place?.count || !state.shown) return; // only for a line that an editor has named
   const isWanted = () => outlined.place === place;
   const runs = await read(`/made.json?build=${state.build}`, isWanted);
   if (!runs || !isWanted()) return;

@@ -3,7 +3,7 @@
 //   requests --arrivals--> pace: seconds of a frame --nextPlace--> the next request
 //
 // INVARIANT: places are frames since the start, and each is at least one after that before it.
-const WEIGHT = 0.1; // of the newest value in a mean
+const WEIGHT = 0.1; // how much the newest value counts in a mean
 // frames are asked for a little closer than they arrive, or a film could be held at a rate that is
 // below what can be drawn
 const SLACK = 0.95;

@@ -2,7 +2,7 @@
 //
 //   /state.json --news.js--> state, film, errors      keys, wheel, buttons --hands.js--> view
 //                                    \                  /
-//                  pictures.js: what is wanted: frame, size, crop --> /frame/N.runs --> #stage
+//                  pictures.js: what is wanted: frame, size, crop --> /frame/N.runs --> #canvas
 //                  timeline.js, rows.js, objects.js, values.js: the rest of the page
 import { swapCosting } from "/costing.js";
 import { makeFields, setGround, setTheme } from "/guides.js";

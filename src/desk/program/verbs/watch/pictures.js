@@ -1,6 +1,6 @@
 // Pictures of frames: asked for, kept, and painted.
 //
-//   look: the view has changed --> wish: size, crop --> /frame/N.runs --> kept --> #stage
+//   look: the view has changed --> wish: size, crop --> /frame/N.runs --> kept --> #canvas
 //
 // Pictures are wanted one after the other: while one is on its way, only the newest wish is kept.
 import { addHeld, keepOlder, mixed } from "/compare.js";
@@ -18,7 +18,7 @@ import { cels } from "/rows.js";
 import { unpack } from "/runs.js";
 import {
   beside, buildOf, clamp, here, isReady, lanes, looks, main, overlay, part, play, ratio, setPressed,
-  stage, state, stateOf, view, write, writeAttribute,
+  state, stateOf, view, write, writeAttribute,
 } from "/state.js";
 import { drawRuler, loadWave } from "/timeline.js";
 import { fit, frameSize, visible } from "/view.js";
@@ -183,7 +183,7 @@ export function paint(picture) {
  * made for another view is stretched. */
 function place() {
   if (!state.film) return;
-  for (const one of lanes()) placeLane(one, one === main ? [here("paper"), stage, overlay]
+  for (const one of lanes()) placeLane(one, one === main ? [here("paper"), main.canvas, overlay]
     : [here("paper2"), one.canvas]);
   placePoints();
 }
@@ -306,7 +306,7 @@ async function addTo(picture) {
 /** A picture that was not made: what the film says of it is among the errors; what was busy is
  * asked again. */
 export async function failed(fault, wanted) {
-  if (!fault.status) console.error(fault); // of the page, or there is no server
+  if (!fault.status) console.error(fault); // the page's own fault, or there is no server
   const one = wanted.lane;
   if (fault.status !== 503) noteSeen();
   if (fault.status === 422) {

@@ -16,7 +16,7 @@ import {
 import { drawRuler, followHead } from "/timeline.js";
 
 let isTicking = false; // a tick waits: never two, however often playing begins again
-let timer = 0;         // of the next call of proceed
+let timer = 0;         // for the next call of proceed
 // pictures that are requested ahead while playing, and at the same time
 const AHEAD = 8, AT_ONCE = 3;
 const BEHIND = 24;           // frames that a picture may be late

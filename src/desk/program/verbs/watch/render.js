@@ -13,7 +13,7 @@ let isProposed = false; // whether the format and the frames were
 let moving = "";        // the video format in whose place a picture was proposed for one frame
 let own = null;         // what the page says by itself: a question, or a refusal; null: nothing
 let begun = 0;          // the number of the last render that the page has begun
-let told = null;        // of the last one whose end was seen in the form
+let told = null;        // the last render whose end was seen in the form
 
 const form = here("render-form"), field = name => form.elements.namedItem(name);
 const isLooped = () => loop.from > 1 || loop.to < state.film.frames;

@@ -32,7 +32,7 @@ renderers.__index = renderers
 --- Options for the page, not for the film.
 local own = { ["--port"] = true, ["--open"] = true, ["--size"] = true, ["--editor"] = true,
               ["-o"] = true }
---- Those, and options whose values the page has as those of parameters.
+--- Those, and options whose values the page has as parameters.
 local shown = setmetatable({ ["--set"] = true, ["--set-from"] = true }, { __index = own })
 
 --- The options with which films are made, as words of a command, without values of parameters.
@@ -94,7 +94,7 @@ end
 -- ---------------------------------------------------------------- one renderer
 
 --- Adds to the words of a process what the film was given: the options of the request, and the
---- values of parameters, which replace those of the command line.
+--- values of parameters, which replace the command line's.
 function renderers:add_options(words)
   local settings = {}
   for name, value in pairs(self.values) do settings[#settings + 1] = { name, value } end

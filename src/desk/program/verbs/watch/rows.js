@@ -1,5 +1,5 @@
 // The exposure sheet: a row for each cel, as wide as the timeline above it. In a cut the rows of a
-// shot are below its name, and unfold; so are those of the second film.
+// shot are below its name, and unfold; so are the second film's rows.
 //
 //   /sheet.json --> sheet.rows --what is unfolded--> sheet.shown --> the names, and the canvas
 //
@@ -41,7 +41,7 @@ export async function loadSheet() {
   showSheet();
 }
 
-/** Rows in the order of the outliner: those of a cel's parts after it. */
+/** Rows in the order of the outliner: a cel's parts come after it. */
 function partsLast(rows) {
   const known = new Set(rows.map(row => row.cel).filter(Boolean)), parts = new Map();
   for (const row of rows.filter(one => known.has(one.of))) {
@@ -50,7 +50,7 @@ function partsLast(rows) {
   return rows.filter(row => !known.has(row.of)).flatMap(row => [row, ...parts.get(row.cel) ?? []]);
 }
 
-/** The rows of a film; those of the second are below its name, with its frames at their times. */
+/** The rows of a film; the second's are below its name, with its frames at their times. */
 function rowsOf(one, { rows, frames }) {
   if (one === main) return partsLast(rows).map(row => ({ ...row, end: frames + 1 }));
   const rate = state.film.fps / state.second.film.fps, at = frame => (frame - 1) * rate + 1;
@@ -77,7 +77,7 @@ function swapShot(name) {
 
 const shotOf = name => shotsOf().find(one => one.name === name);
 
-/** Whether the rows of a shot are shown: at first those of the shot that is seen. */
+/** Whether the rows of a shot are shown: at first only in the shot that is seen. */
 function isUnfolded(name) {
   if (!unfolded.has(name)) {
     const shot = shotOf(name);
@@ -165,7 +165,7 @@ function swapLetter(name, letter) {
   look();
 }
 
-/** Says again how cels are shown, also those of a frame whose cels are known now. */
+/** Says again how cels are shown, also in a frame whose cels are known now. */
 export function queryCels() {
   const rows = sheet.rows.map(row => row.cel).filter(Boolean), isSolo = isAny("s");
   const names = [...new Set([...letters.keys(), ...rows, ...celNames()])];

@@ -4,7 +4,6 @@
 //                        \                                /
 //                         everything that is drawn is drawn from these
 export const here = id => document.getElementById(id);
-export const stage = here("stage");
 export const desk = here("desk");
 export const overlay = here("overlay");
 
@@ -39,8 +38,8 @@ const lane = (side, canvas, box) => ({
   given: new URLSearchParams(), wrong: { __proto__: null }, isGiven: false, isSending: false,
   isChanged: false, isRefilled: false, wantedBuild: 0, formOf: "",
 });
-export const main = lane(1, stage, desk);
-export const beside = lane(2, here("stage2"), here("desk2"));
+export const main = lane(1, here("canvas"), desk);
+export const beside = lane(2, here("canvas2"), here("desk2"));
 
 /** What the server has said of a lane's film; null: it is not shown. */
 export const stateOf = one => one === main ? state : state.second;
@@ -50,7 +49,7 @@ export const lanes = () => isComparing() ? [main, beside] : [main];
 /** The build whose pictures a lane wants: values that are on their way will make the next one. */
 export const buildOf = one => Math.max(stateOf(one)?.build ?? 0, one.wantedBuild);
 
-/** An element of a lane: those of the second have a 2 after their names. */
+/** An element of a lane: in the second lane, names end in 2. */
 export const part = (one, id) => here(one === main ? id : `${id}2`);
 
 export const ratio = () => window.devicePixelRatio || 1;

@@ -26,8 +26,8 @@ const CLOSEST = 4;             // frames, the least that the timeline shows
 const BLOCKS_MOST = 1000;      // shots, or marks, that are shown at once
 const MARK_LEAST = 12, EDGE = 9; // pixels: of a mark; how far a block goes beyond the window
 
-let width = 1;                        // of the rows, in CSS pixels
-export const heard = { columns: [], lips: [], text: "", build: 0 }; // of /wave.json
+let width = 1;                        // width of the rows, in CSS pixels
+export const heard = { columns: [], lips: [], text: "", build: 0 }; // what /wave.json has said
 
 export const unit = () => width / (span.to - span.from);
 export const xOf = frame => (frame - span.from) * unit();
@@ -53,7 +53,7 @@ export function brushOf(canvas, height) {
 }
 
 const COLOURS = ["line", "text", "quiet", "accent", "slow", "ready", "even", "odd", "wave", "tint"];
-const colours = { theme: "" }; // of the theme, by their names
+const colours = { theme: "" }; // colours of the theme, by their names
 
 /** The colours of the style sheet that are drawn with, read once for a theme. */
 export function coloursOf() {
@@ -136,7 +136,7 @@ function blocksOf() {
 
 /** The shots of the film, each with the frames that it has alone or in transitions, from 0. */
 export const shotsOf = () => blocksOf().shots;
-/** The marks, each with the frames until the next one; those of shots are not among them. */
+/** The marks, each with the frames until the next one; without the marks of shots. */
 export const marksOf = () => blocksOf().marks;
 /** The shots that a frame shows, counted from 0: in a transition there are two. */
 export const shotsAt = at => shotsOf().filter(shot => shot.at <= at && at < shot.at + shot.count);
@@ -251,7 +251,7 @@ export function setBusy(what, isOn) {
   writeAttribute(here("timeline"), "aria-busy", String(busy.size > 0));
 }
 
-let headPlace = ""; // of the playhead, as it was written last
+let headPlace = ""; // where the playhead is, as it was written last
 
 export function placeHead() {
   if (!state.film) return;
@@ -282,7 +282,7 @@ export function measureTimeline() {
   drawTimeline();
 }
 
-/** Shows some frames, from 0, within those of the film. */
+/** Shows some frames of the film, from 0. */
 export function setSpan(from, to) {
   const all = state.film.frames, count = clamp(to - from, Math.min(CLOSEST, all), all);
   span.from = clamp(from, 0, all - count);

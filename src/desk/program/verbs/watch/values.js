@@ -175,7 +175,7 @@ function showSource() {
   write(here("sources"), "hidden", lines.length === 0);
 }
 
-/** Marks the fields whose values are not those of the script, or cannot be. */
+/** Marks the fields whose values differ from the script's, or are wrong. */
 function markFields(one) {
   for (const known of stateOf(one).parameters) {
     const field = part(one, "form").elements.namedItem(known.name);
@@ -212,7 +212,7 @@ function fillForm(one, parameters) {
   if (isIn) form.elements.namedItem(name)?.focus();
 }
 
-/** The fields in their order; those of a group together, where its first one is. */
+/** The fields in their order; a group's together, where its first one is. */
 function groupsOf(one, parameters) {
   const list = [], groups = new Map();
   for (const known of parameters) {

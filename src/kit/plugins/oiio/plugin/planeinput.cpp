@@ -45,7 +45,7 @@ private:
 
   planefile_plane *plane_ = nullptr;
   planefile_drawer *drawer_ = nullptr;
-  Part next_ = {}; /* of the drawer: its columns, and the row that it draws next */
+  Part next_ = {}; /* what the drawer draws: its columns, and its next row */
 };
 
 /* Removes the hints after a question mark from a name, unless a file has the whole name. */

@@ -5,7 +5,7 @@
 #include "readers/svg/words/forms.h"
 #include "readers/svg/words/silent.h"
 #include "readers/svg/words/values.h"
-#include "readers/xml/xml.h"
+#include "readers/type/xml.h"
 
 #define SVG_NAMESPACE "http://www.w3.org/2000/svg"
 #define LINK_NAMESPACE "http://www.w3.org/1999/xlink"

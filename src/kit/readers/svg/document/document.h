@@ -23,7 +23,7 @@ typedef struct cs_svg_attribute {
 
 typedef struct cs_svg_node {
   cs_svg_element element;
-  const char *tag;       /* its name, without a namespace */
+  const char *tag;       /* the name of the element, without a namespace */
   const char *text;      /* the text of CHARACTERS: UTF-8, as in the file; otherwise NULL */
   uint32_t line, number; /* number: counts elements, from 1 in the order of the file */
   struct cs_svg_node *parent, *first, *last, *next; /* NULL: none; first, last: children */
@@ -31,8 +31,8 @@ typedef struct cs_svg_node {
   size_t attribute_count;
   cs_css_declarations style;    /* the style of its attribute `style` */
   cs_css_declarations moved;    /* what animations give to its properties; all zero: nothing */
-  const celspan_matrix *motion; /* of animateMotion, after its own transform; NULL: none */
-  struct cs_svg_own_box *box;   /* of its contents at its own place; NULL: not yet asked for */
+  const celspan_matrix *motion; /* what animateMotion adds, after its transform; NULL: none */
+  struct cs_svg_own_box *box;   /* around its contents at its place; NULL: not yet asked for */
 } cs_svg_node;
 
 typedef struct cs_svg_document {
@@ -50,7 +50,7 @@ typedef struct cs_svg_document {
   cs_hash key;            /* the same for equal texts, if anything of it moves */
   cs_svg_unread unread;
   cs_svg_variables variables; /* made while styles are read */
-  cs_svg_measure page; /* of the outermost element; zero until its size has been read (build.c) */
+  cs_svg_measure page;        /* the outermost element's size; zero until it is read (build.c) */
 } cs_svg_document;
 
 /* name: of the file, for messages. *out must be finished even after a failure. Errors: INPUT with

@@ -77,8 +77,8 @@ typedef struct cs_svg_reading {
   uint64_t tests;                   /* how many tests of selectors are left */
   uint32_t drawn;                   /* elements so far */
   uint32_t depth;                   /* how many elements that are being built contain each other */
-  uint32_t drawings;                /* that were read as images so far */
-  uint64_t image_bytes;             /* of images so far */
+  uint32_t drawings;                /* drawings that were read as images so far */
+  uint64_t image_bytes;             /* images so far */
   cs_svg_kept_images images;
   /* The drawing includes drawings in other files, or a file that it names could not be shown: the
    * next reading may give another drawing. */
@@ -97,7 +97,7 @@ typedef struct cs_svg_open {
 /* The element whose fill or stroke other elements inherit: gradients are fitted to it. */
 typedef struct cs_svg_context_box {
   celspan_box box;
-  celspan_matrix matrix; /* its user units to the drawing's */
+  celspan_matrix matrix; /* from the element's user units to the drawing's */
   cs_svg_measure measure;
 } cs_svg_context_box;
 

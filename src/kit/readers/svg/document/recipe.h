@@ -72,11 +72,11 @@ typedef struct cs_svg_recipe {
   struct cs_svg_recipe *next; /* owned; NULL: it is the last one */
   cs_memory *memory;
   celspan_space space; /* the space of the drawing: for the element itself, and for images */
-  celspan_box region;  /* of which the element is cut off */
+  celspan_box region;  /* the element is cut off outside of it */
   celspan_matrix matrix, back; /* from user units to the drawing's, and back */
   cs_svg_step *steps;          /* none: nothing is drawn */
   size_t step_count, step_capacity;
-  size_t *inputs; /* of all steps: the numbers of sources and steps, as in the figure */
+  size_t *inputs; /* for all steps: the numbers of sources and steps, as in the figure */
   size_t input_count, input_capacity;
 } cs_svg_recipe;
 

@@ -73,15 +73,15 @@ typedef struct cs_svg_style {
   bool has_clip_path, has_mask;
   celspan_blend blend;
   bool isolates;                           /* blend modes inside do not act on its background */
-  bool keeps_width;                        /* of the stroke: transforms do not change its width */
-  bool shows_overflow;                     /* of svg, symbol and marker elements */
-  bool uses_alpha;                         /* of a mask: alpha instead of luminance */
+  bool keeps_width;                        /* transforms do not change the width of the stroke */
+  bool shows_overflow;                     /* for svg, symbol and marker elements */
+  bool uses_alpha;                         /* a mask uses alpha instead of luminance */
   cs_svg_colour light_colour;              /* the light colour of filters */
   cs_svg_colour stop_colour, flood_colour; /* with stop-opacity or flood-opacity applied */
   /* Functions, and the properties that are applied after them; NULL: none. */
   const char *transform, *translate, *rotate, *scale;
   const char *transform_origin; /* NULL: none */
-  bool is_about_box;            /* their shares and their origin are of the element's own box */
+  bool is_about_box;            /* transforms take shares and origin from the element's own box */
   cs_svg_offset offset;         /* applied after the functions, and before the properties */
   const celspan_matrix *motion; /* applied after all of them; NULL: none */
 } cs_svg_style;

@@ -36,7 +36,7 @@ static celspan_status read_start(cs_svg_reading *reading, const cs_svg_node *nod
                                  cs_svg_text_path *out) {
   const cs_svg_length none = {0, CS_SVG_UNIT_NUMBER};
   cs_svg_measure measure = place->measure;
-  double declared; /* its length */
+  double declared; /* the length that the path declares */
   CS_TRY(cs_svg_number_of(reading->context, path, CS_SVG_PATH_LENGTH, CS_SVG_AXIS_BOTH, &measure,
                           &declared));
   measure.width = declared > 0 ? declared : out->way.length;

@@ -72,11 +72,11 @@ typedef struct cs_svg_written {
   size_t count, capacity;
   cs_svg_text_node *nodes; /* none is empty */
   size_t node_count, node_capacity;
-  cs_svg_text_length lengths[CS_SVG_TEXT_LENGTHS]; /* those of inner elements first */
+  cs_svg_text_length lengths[CS_SVG_TEXT_LENGTHS]; /* lengths of inner elements come first */
   size_t length_count;
   cs_svg_text_path paths[CS_SVG_TEXT_PATHS]; /* ascending, without overlap; none is empty */
   size_t path_count;
-  bool ends_in_space; /* this space is joined with a space that follows */
+  bool ends_in_space; /* a space at the end is joined with one that follows */
   bool is_too_long;
 } cs_svg_written;
 

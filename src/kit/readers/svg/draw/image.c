@@ -218,7 +218,7 @@ static celspan_status cut(const image *of, const celspan_box *box, const celspan
   return status;
 }
 
-/* Fits the visible part into a box. user: from its units to those of *out. */
+/* Fits the visible part into a box. user: from its units to the units of *out. */
 static celspan_status put(const image *of, const celspan_box *box, const celspan_matrix *user,
                           celspan_object **out) {
   const char *aspect = cs_svg_node_value(of->node, CS_SVG_PRESERVE_ASPECT_RATIO);

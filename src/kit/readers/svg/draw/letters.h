@@ -24,8 +24,8 @@ typedef struct cs_svg_letter {
   size_t run;
   size_t first, count;       /* glyphs of the run's layout */
   size_t character;          /* the first character of the text that the letter shows */
-  double origin_x, origin_y; /* its place in the layout */
-  double x, y, advance;      /* its left end on the baseline, in user units */
+  double origin_x, origin_y; /* where the letter is in the layout */
+  double x, y, advance;      /* the letter's left end on the baseline, in user units */
   double scale;              /* the factor of its width */
   double turn;               /* the direction of the line that it follows, in degrees */
 } cs_svg_letter;
@@ -76,7 +76,7 @@ typedef struct cs_svg_faces {
   /* borrowed from the source; each font is used for letters that all fonts before it lack */
   const char *fonts[CS_TEXT_FONTS];
   size_t count;  /* 0: no font was given */
-  bool is_plain; /* the first font is not bold or italic, as it should be */
+  bool is_plain; /* the first font lacks the bold or italic that is asked for */
 } cs_svg_faces;
 
 void cs_svg_faces_find(const cs_svg_source *source, const cs_svg_style *style, cs_svg_faces *out);

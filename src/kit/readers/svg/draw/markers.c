@@ -7,7 +7,7 @@
 #include "readers/svg/document/shapes.h"
 #include "readers/svg/words/transforms.h"
 
-#define DEFAULT_SIZE 3 /* of markerWidth and markerHeight. Source: SVG 2, 11.6.2 */
+#define DEFAULT_SIZE 3 /* markerWidth and markerHeight. Source: SVG 2, 11.6.2 */
 
 enum { START, MID, END };
 

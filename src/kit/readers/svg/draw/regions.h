@@ -9,7 +9,7 @@ typedef struct cs_svg_region {
   celspan_box box;       /* in the units of the region */
   celspan_matrix own;    /* from these units to the drawing's */
   bool has_box;          /* the box of the element that refers to the region has a size */
-  celspan_box element;   /* that box, in the element's user units; may be empty */
+  celspan_box element;   /* the element's box, in user units; may be empty */
   celspan_matrix shares; /* from shares of that box to the drawing's units */
 } cs_svg_region;
 

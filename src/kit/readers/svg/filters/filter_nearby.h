@@ -12,7 +12,7 @@
 
 /* The units of a filter's numbers. */
 typedef struct cs_svg_filter_units {
-  bool is_in_shares;      /* of the element's box, else user units */
+  bool is_in_shares;      /* lengths are shares of the element's box, else user units */
   const celspan_box *box; /* the box of the element */
 } cs_svg_filter_units;
 

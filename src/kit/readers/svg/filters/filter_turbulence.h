@@ -12,7 +12,7 @@ typedef struct cs_svg_turbulence {
   int seed;
   bool is_fractal;  /* signed noise, else the sum of absolute values */
   bool is_stitched; /* the noise of the box can be repeated without a seam */
-  bool is_coded;    /* its numbers are codes, else light */
+  bool is_coded;    /* the numbers of the result are codes, else light */
 } cs_svg_turbulence;
 
 /* *out: new, the box filled with the noise; NULL for a box of no size, or of none that could be

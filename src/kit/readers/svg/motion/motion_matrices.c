@@ -50,7 +50,7 @@ static bool continues(const cs_svg_mixed *a, const cs_svg_mixed *b) {
 celspan_status cs_svg_matrices_add(const cs_css_place *place, const cs_svg_mixed *a,
                                    const cs_svg_mixed *b, cs_svg_mixed *out) {
   const char *frame = a->frame;
-  bool is_bare = *frame == '#'; /* of the property scale */
+  bool is_bare = *frame == '#'; /* as the property scale has it */
   size_t function = 0, argument = 0, number = 0;
   CS_TRY(cs_svg_mixed_add(place, a, b, 1, out));
   for (size_t at = 0; frame[at]; at++) {

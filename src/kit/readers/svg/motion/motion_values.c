@@ -440,6 +440,6 @@ celspan_status cs_svg_mixed_write(const cs_css_place *place, const cs_svg_mixed 
         text[size++] = *at;
       text[size] = 0;
     }
-  *out = *text ? text : "none"; /* of transforms without functions */
+  *out = *text ? text : "none"; /* transforms without functions */
   return CELSPAN_OK;
 }

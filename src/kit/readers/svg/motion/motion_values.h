@@ -31,7 +31,7 @@ extern const char cs_svg_colour_frame[];
  * long as *out. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_svg_mixed_read(const cs_css_place *place, cs_svg_name name,
                                                  const char *text, cs_svg_mixed *out);
-/* `count` numbers without units, from those of *value. fallbacks: for numbers that are missing. */
+/* `count` numbers without units, read from *value. fallbacks: for numbers that are missing. */
 CELSPAN_CHECKED celspan_status cs_svg_mixed_fit(const cs_css_place *place, const double *fallbacks,
                                                 size_t count, cs_svg_mixed *value);
 
@@ -69,7 +69,7 @@ CELSPAN_CHECKED celspan_status cs_svg_matrices_add(const cs_css_place *place, co
 /* How a value is added to the one without the animation. */
 typedef enum cs_svg_composition {
   CS_SVG_COMPOSITION_REPLACE,
-  CS_SVG_COMPOSITION_ADD,       /* functions come after those of the other list */
+  CS_SVG_COMPOSITION_ADD,       /* functions come after the other list's */
   CS_SVG_COMPOSITION_ACCUMULATE /* numbers of the same functions are added */
 } cs_svg_composition;
 

@@ -89,7 +89,7 @@ typedef struct cs_css_sheet {
   cs_css_frames *frames; /* a later one replaces one of the same name */
   size_t frames_count, frames_capacity;
   bool has_geometry; /* in one of the rules */
-  bool has_motion;   /* the same for names of animations */
+  bool has_motion;   /* there are rules with names of animations */
 } cs_css_sheet;
 
 /* Parses the contents of a `style` attribute. Errors: NO_MEMORY. */

@@ -247,7 +247,7 @@ typedef enum cs_svg_form {
   CS_SVG_FORM_SIZE, /* a length that is not negative */
   CS_SVG_FORM_LENGTHS,
   CS_SVG_FORM_ANGLE,
-  CS_SVG_FORM_ROTATION, /* of an attribute: numbers; of a style: an angle about the z axis */
+  CS_SVG_FORM_ROTATION, /* an attribute has numbers; a style has an angle about the z axis */
   CS_SVG_FORM_COLOUR,
   CS_SVG_FORM_PAINT,
   CS_SVG_FORM_REFERENCE,
@@ -255,7 +255,7 @@ typedef enum cs_svg_form {
   CS_SVG_FORM_TRANSLATE,
   CS_SVG_FORM_SCALE,
   CS_SVG_FORM_SLANT,
-  CS_SVG_FORM_ORDER, /* of fill, stroke and markers */
+  CS_SVG_FORM_ORDER, /* the order of fill, stroke and markers */
   CS_SVG_FORM_VIEW_BOX,
   CS_SVG_FORM_ASPECT,
   CS_SVG_FORM_FILTERS,

@@ -16,7 +16,7 @@
 /* All zero: there is no path. */
 typedef struct cs_svg_offset {
   bool is_there;
-  celspan_point at; /* of the path */
+  celspan_point at; /* where the path begins */
   double degrees;
   const char *anchor; /* as written; NULL: the origin of the transforms */
 } cs_svg_offset;

@@ -1,4 +1,4 @@
-#include "readers/xml/artwork.h"
+#include "readers/type/type_module.h"
 
 #include "inside/module.h"
 
@@ -7,7 +7,7 @@
 typedef struct loaded_module {
   cs_service service;
   cs_memory *memory;
-  _Atomic(const cs_art_module *) table;
+  _Atomic(const cs_type_module *) table;
 } loaded_module;
 
 static celspan_status create(celspan_context *context, cs_service **out) {
@@ -26,21 +26,21 @@ static void destroy(cs_service *service) {
 static const cs_service_kind loaded_kind = {create, destroy, NULL};
 
 static celspan_status load(celspan_context *context, const char *purpose,
-                           const cs_art_module **out) {
-  cs_module_desc desc = cs_modules_art;
+                           const cs_type_module **out) {
+  cs_module_desc desc = cs_modules_type;
   const void *table;
   desc.purpose = purpose;
-  CS_TRY(cs_module_load(context, &desc, CS_ART_MODULE_VERSION, CELSPAN_INPUT, &table));
+  CS_TRY(cs_module_load(context, &desc, CS_TYPE_MODULE_VERSION, CELSPAN_INPUT, &table));
   *out = table;
   return CELSPAN_OK;
 }
 
-celspan_status cs_artwork_module(celspan_context *context, const char *purpose,
-                                 const cs_art_module **out) {
+celspan_status cs_type_module_load(celspan_context *context, const char *purpose,
+                                   const cs_type_module **out) {
   cs_service *service;
   CS_TRY(cs_context_service(context, &loaded_kind, &service));
   loaded_module *loaded = (loaded_module *)service;
-  const cs_art_module *module = atomic_load_explicit(&loaded->table, memory_order_acquire);
+  const cs_type_module *module = atomic_load_explicit(&loaded->table, memory_order_acquire);
   if (!module) {
     CS_TRY(load(context, purpose, &module));
     atomic_store_explicit(&loaded->table, module, memory_order_release);

@@ -1,4 +1,4 @@
-/* The functions of the module celspan, and those of celspan.core, which celspan's own Lua modules
+/* The functions of the module celspan, and those of celspan.native, which celspan's own Lua modules
  * use and which scripts do not see. A function that can fail returns nil and a message.
  */
 #pragma once
@@ -21,8 +21,8 @@ void cs_pixels_open(lua_State *L);
 /* Puts the modules for scripts into package.preload, where private modules would refuse to load.
  * Gives the private modules to celspan's own modules (lua/bind/require.h). */
 void cs_embedded_open(lua_State *L);
-/* The same, and also celspan.core. */
-void cs_core_open(lua_State *L);
+/* The same, and also celspan.native. */
+void cs_native_open(lua_State *L);
 /* Whether there is a module celspan.NAME for scripts. */
 bool cs_embedded_has(const char *name);
 /* (name) -> the source of a module, for celspan.manual */
@@ -53,18 +53,18 @@ int cs_folders_frame_name(lua_State *L);
 /* A function that a host may provide to decode sounds: (path, tried | nil) -> seconds, sums | nil,
  * message. sums: 8-byte floats, as plugins/sound/loudness.h describes them. Scripts of a state
  * without one cannot read sounds. */
-#define CS_CORE_HEAR "celspan.hear" /* its name in the registry */
+#define CS_NATIVE_HEAR "celspan.hear" /* the name of the function in the registry */
 /* Another one: (path, tried | nil) -> levels | nil, message. levels: a byte for each band of each
  * step, as plugins/sound/spectrum.h describes them. */
-#define CS_CORE_SPECTRUM "celspan.spectrum"
+#define CS_NATIVE_SPECTRUM "celspan.spectrum"
 
 /* ---------------------------------------------------------------- movies */
 
 /* A function that a host may provide to open movies: (path, tried | nil) -> facts | nil, message.
  * facts: as program/film/movies.c puts them, with `picture`, a function. */
-#define CS_CORE_MOVIE "celspan.movie" /* its name in the registry */
+#define CS_NATIVE_MOVIE "celspan.movie" /* the name of the function in the registry */
 /* Another one: (path) -> whether the file has the first bytes of a movie. */
-#define CS_CORE_IS_MOVIE "celspan.is_movie"
+#define CS_NATIVE_IS_MOVIE "celspan.is_movie"
 
 /* ---------------------------------------------------------------- layered documents */
 
@@ -90,7 +90,7 @@ void cs_drawing_open(lua_State *L);
 
 /* ---------------------------------------------------------------- planes */
 
-#define CS_CORE_PLANE "celspan.plane" /* the name of its metatable */
+#define CS_NATIVE_PLANE "celspan.plane" /* the name of its metatable */
 /* (plane) -> what can be seen of it, as outlines (parcels.c) | nil, why not */
 int cs_parcels_list(lua_State *L);
 /* celspan.plane(film or rostrum [, options]) -> plane | nil, message */
@@ -146,7 +146,7 @@ int cs_relight_read(lua_State *L);
 /* ---------------------------------------------------------------- frames by their lights */
 
 /* The lights of a stack are a list with eight numbers for each light: r, g, b, a of its front and
- * of its back. The first light is that of the rostrum itself. */
+ * of its back. The first light belongs to the rostrum itself. */
 
 /* (rostrum or film, options) -> stack, { cels = {{ name =, has_front = }, ...}, brightness =,
  * width =, height =, bytes = } */

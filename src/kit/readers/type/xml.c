@@ -1,15 +1,15 @@
-#include "readers/xml/xml.h"
+#include "readers/type/xml.h"
 
 #include <inttypes.h>
 
-#include "readers/xml/artwork.h"
+#include "readers/type/type_module.h"
 
 celspan_status cs_xml_parse(celspan_context *context, const char *name, const char *purpose,
                             const char *bytes, size_t size, const cs_xml_handler *handler,
                             const celspan_status *failure) {
-  const cs_art_module *module;
-  CS_TRY(cs_artwork_module(context, purpose, &module));
-  cs_art_failure told = {.line = 0};
+  const cs_type_module *module;
+  CS_TRY(cs_type_module_load(context, purpose, &module));
+  cs_type_failure told = {.line = 0};
   celspan_status status = module->parse_xml(bytes, size, handler, &told);
   if (status == CELSPAN_OK || status == CELSPAN_CANCELLED)
     return status == CELSPAN_OK ? CELSPAN_OK : *failure;

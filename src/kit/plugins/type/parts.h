@@ -1,13 +1,13 @@
-/* Declarations that the files of the art module share: see the tables in readers/xml/module.h and
- * readers/xml/type.h. */
+/* Declarations that the files of the type module share: see the tables in readers/type/module.h and
+ * readers/type/letters.h. */
 #pragma once
 
 #include "celspan/text.h"
-#include "readers/xml/module.h"
+#include "readers/type/module.h"
 
 /* XML through expat. */
 celspan_status cs_xml_parse_bytes(const char *bytes, size_t size, const cs_xml_handler *handler,
-                                  cs_art_failure *failure);
+                                  cs_type_failure *failure);
 
 /* The order of characters through FriBidi, and where lines may end through libunibreak. */
 celspan_status cs_order_embeddings(const uint32_t *characters, size_t count,

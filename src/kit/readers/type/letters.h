@@ -1,4 +1,4 @@
-/* The functions of the art module for type: shaping and outlines of fonts (HarfBuzz), the order of
+/* The functions of the type module for type: shaping and outlines of fonts (HarfBuzz), the order of
  * characters (FriBidi), and where lines may end (libunibreak).
  *
  *   bytes of a font --open--> font --shape-->   glyphs: numbers, advances, offsets
