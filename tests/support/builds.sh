@@ -3,7 +3,8 @@
 #
 #   tests/support/builds.sh
 #
-#   without Lua        and without C++ the core alone, by a host in C
+#   the core alone     without C++, by a host in C
+#   the library alone  without the program
 #   release            is optimized, and has no debugging information; it is only configured
 #   without C++        as the subproject of another project, with a host in C that plays a film;
 #                      formats that need C++ are refused with a sentence
@@ -18,24 +19,28 @@ quick=(--werror -Doptimization=0 -Ddebug=false)
 quietly() { "$@" >"$tree/log" 2>&1 || { cat "$tree/log" >&2 && exit 1; }; }
 # absent FOLDER NAME: checks that nothing of that name was built.
 absent() {
-  if [ -n "$(find "$1" -name "$2" -print -quit)" ]; then
+  if [ -n "$(find "$1" -type f -name "$2" -print -quit)" ]; then
     echo "builds: $2 should not be there" >&2
     exit 1
   fi
 }
 
-without_lua() {
-  quietly env CXX=/nonexistent/c++ meson setup "$tree/core" "${quick[@]}" -Dlua=disabled \
-    -Dpictures=disabled -Draster=disabled -Dtype=disabled -Dcolour=disabled -Dpdf=disabled \
-    -Dtests=false
+core_alone() {
+  quietly env CXX=/nonexistent/c++ meson setup "$tree/core" "${quick[@]}" -Dkit=disabled -Dtests=false
   quietly ninja -C "$tree/core"
   "$tree/core/examples/example_memory" | grep -q '#'
+  absent "$tree/core" 'libcs_svg.a'
   absent "$tree/core" 'libcelspan_lua.a'
-  absent "$tree/core" 'celspan.so'
-  absent "$tree/core" 'celspan-type.so'
-  absent "$tree/core" 'celspan-colour.so'
-  absent "$tree/core" 'celspan-pdf.so'
-  absent "$tree/core" 'celspan-web.so'
+  absent "$tree/core" 'celspan'
+  absent "$tree/core" 'celspan*.so'
+}
+
+library_alone() {
+  quietly meson setup "$tree/library" "${quick[@]}" -Ddesk=disabled -Dpictures=disabled -Dtests=false
+  quietly ninja -C "$tree/library"
+  echo 'print(require "celspan".circle { radius = 3 }:bounds())' >"$tree/circle.lua"
+  (cd "$tree/library" && lua5.4 "$tree/circle.lua") | grep -q '^-3'
+  absent "$tree/library" 'celspan'
 }
 
 release() {
@@ -81,6 +86,7 @@ LUA
   grep -q 'built without OpenImageIO' "$tree/refused"
 }
 
-without_lua
+core_alone
+library_alone
 release
 without_cpp_as_subproject
