@@ -26,7 +26,8 @@ absent() {
 }
 
 core_alone() {
-  quietly env CXX=/nonexistent/c++ meson setup "$tree/core" "${quick[@]}" -Dkit=disabled -Dtests=false
+  quietly env CXX=/nonexistent/c++ meson setup "$tree/core" "${quick[@]}" \
+    -Dkit=disabled -Dtests=false
   quietly ninja -C "$tree/core"
   "$tree/core/examples/example_memory" | grep -q '#'
   absent "$tree/core" 'libcs_svg.a'
@@ -36,7 +37,8 @@ core_alone() {
 }
 
 library_alone() {
-  quietly meson setup "$tree/library" "${quick[@]}" -Ddesk=disabled -Dpictures=disabled -Dtests=false
+  quietly meson setup "$tree/library" "${quick[@]}" -Ddesk=disabled \
+    -Dpictures=disabled -Dtests=false
   quietly ninja -C "$tree/library"
   echo 'print(require "celspan".circle { radius = 3 }:bounds())' >"$tree/circle.lua"
   (cd "$tree/library" && lua5.4 "$tree/circle.lua") | grep -q '^-3'

@@ -36,6 +36,7 @@ typedef struct cs_output {
   const char *names;  /* the formats: endings of names; NULL: those of the picture module */
   const char *makers; /* the verbs that make it; NULL: all that write pictures */
   const char *takes;  /* the options of outputs that it takes */
+  const char *offers; /* formats in the form of watch: lines of a name and words; or NULL */
   const char *depths, *colours, *alphas; /* the values that it takes; NULL: any */
   cs_holds holds;
   bool codes_stills; /* one frame is coded as a film is, too, where it could be a picture */

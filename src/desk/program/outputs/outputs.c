@@ -37,11 +37,11 @@ static cs_exit refuse_picture(celspan_context *context, const cs_request *reques
 #define DRAW " render convert "
 #define FILM " render farm convert "
 
-#define VIDEOS(list, more, coded)                                                                  \
+#define VIDEOS(list, more, coded, form)                                                            \
   {                                                                                                \
     .kind = "videos", .names = list, .makers = FILM, .takes = VIDEO more, .depths = DIGITS,        \
-    .colours = SHOWN, .holds = CS_HOLDS_FILM, .codes_stills = coded, .outlet = &cs_outlet_video,   \
-    .refuse = cs_video_target_refuse                                                               \
+    .offers = form, .colours = SHOWN, .holds = CS_HOLDS_FILM, .codes_stills = coded,               \
+    .outlet = &cs_outlet_video, .refuse = cs_video_target_refuse                                   \
   }
 #define PAINTINGS(list, format)                                                                    \
   {                                                                                                \
@@ -60,9 +60,16 @@ const cs_output cs_outputs[] = {
      .names = NO_FILE,
      .makers = " render ",
      .takes = VIEW COLOURS DITHERS "--depth --hash --strip --format --task --keep-going "},
-    VIDEOS(" mp4 mkv mov webm ", "", true),
-    VIDEOS(" gif webp apng ", "--loop ", false),
-    VIDEOS(" avif ", "--loop ", true),
+    VIDEOS(" mp4 mkv mov webm ", "", true,
+           "mp4 MP4 video (H.264)\n"
+           "mkv Matroska video (H.264)\n"
+           "webm WebM video, with alpha\n"
+           "mov ProRes video, with alpha\n"),
+    VIDEOS(" gif webp apng ", "--loop ", false,
+           "gif GIF\n"
+           "webp animated WebP\n"
+           "apng animated PNG\n"),
+    VIDEOS(" avif ", "--loop ", true, "avif animated AVIF\n"),
     {.kind = "files with layers",
      .names = " exr openexr ",
      .makers = RENDER,
@@ -82,10 +89,12 @@ const cs_output cs_outputs[] = {
     PAINTINGS(" psd ", &cs_apart_psd),
     {.kind = "pictures",
      .names = " png tga targa span ",
+     .offers = "png PNG pictures\n",
      .takes = VIEW COLOURS DITHERS FILES "--depth --hash --strip ",
      .refuse = refuse_picture},
     {.kind = "pictures",
      .takes = VIEW COLOURS DITHERS FILES "--depth --hash ",
+     .offers = "exr EXR pictures\n",
      .refuse = refuse_picture},
     {.kind = "planes",
      .names = " plane ",

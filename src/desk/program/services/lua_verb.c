@@ -123,14 +123,15 @@ static void push_words(lua_State *L, const char *text) {
 }
 
 /* outputs() -> the rows of outputs.c: { kind =, names = { "png", ... }, makers = { verb, ... },
- * takes = { option, ... } }; makers nil: all verbs that write pictures */
+ * takes = { option, ... }, offers = }; makers nil: all verbs that write pictures */
 static int push_outputs(lua_State *L) {
   char names[CS_OUTPUT_NAMES];
   lua_newtable(L);
   for (const cs_output *output = cs_outputs; output->kind; output++) {
     cs_output_names(output, names);
-    lua_createtable(L, 0, 4);
+    lua_createtable(L, 0, 5);
     cs_put_text(L, "kind", output->kind);
+    cs_put_text(L, "offers", output->offers);
     push_words(L, names);
     lua_setfield(L, -2, "names");
     push_words(L, output->takes);

@@ -56,7 +56,8 @@ local function tell() state.news = state.news + 1 end
 local first = watched.new(request[1], files, places, tell)
 local second = watched.new(request[2] or request[1], files, places, tell)
 local sides = { first }
-local renders = part "renders.lua".new(first, folder, tell)
+local rendering = part "renders.lua"
+local renders = rendering.new(first, folder, tell)
 
 --- Shows or hides the second film.
 local function set_comparing(is_on)
@@ -82,7 +83,8 @@ local kinds = { html = "text/html; charset=utf-8", css = "text/css; charset=utf-
 local made = {} -- the texts of the page as they are sent
 
 local function give_text(id, name)
-  made[name] = made[name] or joining.text(name, program.text)
+  made[name] = made[name]
+    or joining.text(name, program.text):gsub('<select name="format">', "%0" .. rendering.options())
   reply.send(id, 200, kinds[name:match "%w+$"], made[name])
 end
 

@@ -7,7 +7,6 @@ import { element, here, label, loop, main, setWords, state, view, write } from "
 import { marksOf, shotsOf } from "/timeline.js";
 import { renderOf, stemOf } from "/values.js";
 
-const PICTURES = ["png", "exr"]; // formats of one picture
 let isNamed = false;    // whether the name of the file was typed
 let isProposed = false; // whether the format and the frames were
 let moving = "";        // the video format in whose place a picture was proposed for one frame
@@ -16,6 +15,8 @@ let begun = 0;          // the number of the last render that the page has begun
 let told = null;        // the last render whose end was seen in the form
 
 const form = here("render-form"), field = name => form.elements.namedItem(name);
+/** Whether each frame is a file of its own. */
+const isPicture = () => field("format").selectedOptions[0]?.hasAttribute("data-still");
 const isLooped = () => loop.from > 1 || loop.to < state.film.frames;
 
 /** What follows the name of the film: the number of a picture, "####" for several, the frames of a
@@ -23,7 +24,7 @@ const isLooped = () => loop.from > 1 || loop.to < state.film.frames;
 function ending() {
   const { value } = field("format"), isOne = field("range").value === "frame", frames = rangeText();
   const isStill = isOne || state.film.frames === 1;
-  const part = !PICTURES.includes(value) ? frames : isOne ? frames.padStart(4, "0")
+  const part = !isPicture() ? frames : isOne ? frames.padStart(4, "0")
     : isStill ? "" : "####";
   return part ? `.${part}.${value}` : `.${value}`;
 }
@@ -62,7 +63,7 @@ function listRanges() {
 /** Proposes a picture for one frame, and the format of before for several. */
 function proposeFormat() {
   const format = field("format"), isOne = field("range").value === "frame";
-  if (isOne && !PICTURES.includes(format.value)) [moving, format.value] = [format.value, "png"];
+  if (isOne && !isPicture()) [moving, format.value] = [format.value, "png"];
   else if (!isOne && moving) [moving, format.value] = ["", moving];
   nameFile();
 }

@@ -24,8 +24,9 @@ local renders = {}
 renders.__index = renders
 
 -- Whether a format holds pictures alone; nil: it holds neither pictures nor videos.
-local stills = {}
+local stills, offers = {}, {}
 for _, output in ipairs(program.outputs()) do
+  offers[#offers + 1] = output.offers
   for _, name in ipairs(output.names) do
     if output.kind == "videos" then
       stills[name] = false
@@ -40,6 +41,15 @@ end
 function renders.new(side, folder, tell)
   return setmetatable({ side = side, folder = folder, tell = tell, said = { state = "idle" },
                         number = 0, reported = 0 }, renders)
+end
+
+--- The formats of the form, as options in HTML.
+function renders.options()
+  return (table.concat(offers):gsub("(%w+) ([^\n]+)\n", function(name, words)
+    if stills[name] == nil then return "" end
+    return ('<option value="%s"%s>%s</option>'):format(name, stills[name] and " data-still" or "",
+      words)
+  end))
 end
 
 -- ---------------------------------------------------------------- what is wanted
