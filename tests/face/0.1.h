@@ -73,7 +73,7 @@ celspan_status celspan_texture_create_focal( celspan_context *context, celspan_p
   radius, celspan_point focus, const celspan_stop *stops, size_t stop_count, celspan_texture
   **out);
 celspan_status celspan_texture_create_conic(celspan_context *context, celspan_point centre, double
-  angle, const celspan_stop *stops, size_t stop_count, celspan_texture **out);
+  radians, const celspan_stop *stops, size_t stop_count, celspan_texture **out);
 typedef enum celspan_noise_kind { CELSPAN_NOISE_PERLIN = 0, CELSPAN_NOISE_VALUE,
   CELSPAN_NOISE_FRACTAL, CELSPAN_NOISE_TURBULENCE, CELSPAN_NOISE_CELLS, CELSPAN_NOISE_WHITE }
   celspan_noise_kind;
@@ -226,9 +226,9 @@ typedef enum celspan_blend { CELSPAN_BLEND_NORMAL = 0, CELSPAN_BLEND_MULTIPLY,
   CELSPAN_BLEND_LIGHTER_COLOR } celspan_blend;
 typedef struct celspan_grade celspan_grade;
 typedef struct celspan_grade_desc { size_t struct_size; double exposure; double contrast; bool
-  has_pivot; double pivot; double saturation, hue; double temperature, tint; double gamma; bool
-  has_matrix; double matrix[3][4]; const celspan_point *curve[3]; size_t curve_count[3]; const char
-  *lut; celspan_space lut_space; double slope[3], offset[3], power[3]; int steps; }
+  has_pivot; double pivot; double saturation, hue_radians; double temperature, tint; double gamma;
+  bool has_matrix; double matrix[3][4]; const celspan_point *curve[3]; size_t curve_count[3]; const
+  char *lut; celspan_space lut_space; double slope[3], offset[3], power[3]; int steps; }
   celspan_grade_desc;
 void celspan_grade_desc_default(celspan_grade_desc *out, size_t struct_size);
 celspan_status celspan_grade_create(celspan_context *context, const celspan_grade_desc *desc,
@@ -267,7 +267,7 @@ typedef enum celspan_blur_edge { CELSPAN_BLUR_CLEAR = 0, CELSPAN_BLUR_EXTEND } c
 typedef enum celspan_blur_along { CELSPAN_BLUR_AROUND = 0, CELSPAN_BLUR_LINE, CELSPAN_BLUR_ZOOM,
   CELSPAN_BLUR_SPIN } celspan_blur_along;
 typedef struct celspan_blur_desc { size_t struct_size; double radius; celspan_defocus_kernel
-  kernel; celspan_blur_edge edge; celspan_blur_along along; double angle; celspan_point centre; }
+  kernel; celspan_blur_edge edge; celspan_blur_along along; double degrees; celspan_point centre; }
   celspan_blur_desc;
 void celspan_blur_desc_default(celspan_blur_desc *out, size_t struct_size);
 celspan_status celspan_object_blur(celspan_context *context, celspan_object *object, const
@@ -357,7 +357,7 @@ void celspan_filter_desc_default(celspan_filter_desc *out, size_t struct_size);
 typedef struct celspan_rostrum_desc { size_t struct_size; celspan_cel *const *cels; size_t
   cel_count; bool has_front; celspan_light front; celspan_light back; double brightness; bool
   has_camera_centre, has_camera_width; celspan_point camera_centre; double camera_width; double
-  camera_rotation; celspan_antialias_mode antialias; const celspan_filter_desc *filter;
+  camera_radians; celspan_antialias_mode antialias; const celspan_filter_desc *filter;
   celspan_light_texture front_texture, back_texture; bool has_size; double width, height; bool
   front_is_colour, back_is_colour; celspan_space space; celspan_grade *grade; celspan_texture
   *grain; } celspan_rostrum_desc;

@@ -474,7 +474,7 @@ static void make_rostrum(program *p) {
   desc.camera_centre = point(p);
   desc.has_camera_width = take(p, 4) == 3;
   desc.camera_width = number(p);
-  desc.camera_rotation = take(p, 4) == 3 ? number(p) : 0;
+  desc.camera_radians = take(p, 4) == 3 ? number(p) : 0;
   desc.antialias = (celspan_antialias_mode)word(p, 3);
   const celspan_filter_desc kernel_of = filter(p);
   desc.filter = &kernel_of;

@@ -103,7 +103,7 @@ static celspan_rostrum *show(studio *s, celspan_cel *cel, const stage *camera) {
   desc.back = (celspan_light){0.9f, 0.8f, 1, 0.7f};
   desc.has_camera_width = camera->camera_scale != 1;
   desc.camera_width = SIDE / camera->camera_scale;
-  desc.camera_rotation = camera->camera_turn;
+  desc.camera_radians = camera->camera_turn;
   return studio_rostrum(s, desc, &cel, 1);
 }
 
@@ -545,7 +545,7 @@ static image make_bar(studio *s, const lens *l, double radius, double low, bool 
   desc.defocus_radius = radius;
   desc.defocus_kernel = l->kernel;
   celspan_rostrum_desc camera = CELSPAN_ROSTRUM_DESC;
-  camera.camera_rotation = l->turn;
+  camera.camera_radians = l->turn;
   celspan_cel *cel = studio_cel(s, desc, &bar, 1);
   view v = {SIDE, SIDE, SIDE, SIDE, l->mode};
   return make(s, studio_rostrum(s, camera, &cel, 1), &v, 1);

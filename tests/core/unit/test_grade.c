@@ -53,7 +53,7 @@ static void saturation(const celspan_grade_desc *desc, celspan_space space, doub
 }
 
 static void hue(const celspan_grade_desc *desc, celspan_space space, double c[3]) {
-  const double k = cos(desc->hue), s = sin(desc->hue);
+  const double k = cos(desc->hue_radians), s = sin(desc->hue_radians);
   const double m[3][3] = {{0.2126 + k * 0.7874 - s * 0.2126, 0.7152 - k * 0.7152 - s * 0.7152,
                            0.0722 - k * 0.0722 + s * 0.9278},
                           {0.2126 - k * 0.2126 + s * 0.143, 0.7152 + k * 0.2848 + s * 0.140,
@@ -107,7 +107,7 @@ static void vary_step(test_random *random, size_t k, celspan_grade_desc *desc) {
   else if (steps[k] == saturation)
     desc->saturation = random_between(random, 0, 2);
   else if (steps[k] == hue)
-    desc->hue = random_between(random, -7, 7);
+    desc->hue_radians = random_between(random, -7, 7);
   else if (steps[k] == balance) {
     desc->temperature = random_between(random, -1, 1);
     desc->tint = random_between(random, -1, 1);

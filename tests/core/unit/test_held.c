@@ -453,7 +453,7 @@ static void camera(studio *s, shot *made) {
 }
 static void rotation(studio *s, shot *made) {
   (void)s;
-  made->rostrum.camera_rotation = 0.01;
+  made->rostrum.camera_radians = 0.01;
 }
 static void front(studio *s, shot *made) {
   (void)s;

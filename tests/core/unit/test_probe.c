@@ -300,7 +300,7 @@ static void test_camera_rotation(studio *s) {
   celspan_object *rect = studio_rect(s, 60, 24, 10, 2, studio_paint(s, red));
   celspan_cel *cel = studio_cel(s, CELSPAN_CEL_DESC, &rect, 1);
   celspan_rostrum_desc desc = CELSPAN_ROSTRUM_DESC;
-  desc.camera_rotation = 1.5707963267948966;
+  desc.camera_radians = 1.5707963267948966;
   celspan_rostrum *r = studio_rostrum(s, desc, &cel, 1);
   EXPECT(s, r, 50, 10, 1, 0, 0, 1);
   EXPECT(s, r, 50, 40, 0, 0, 0, 0);

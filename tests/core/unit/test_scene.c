@@ -447,7 +447,7 @@ static celspan_rostrum *scene(studio *s, int change) {
   desc.has_camera_centre = change == 20;
   desc.has_camera_width = change == 21;
   desc.camera_width = 7;
-  desc.camera_rotation = change == 22 ? 1 : 0;
+  desc.camera_radians = change == 22 ? 1 : 0;
   desc.antialias = change == 23 ? CELSPAN_ANTIALIAS_NONE : CELSPAN_ANTIALIAS_AREA;
   desc.grain = change == 27 ? linear : NULL;
   return studio_rostrum(s, desc, cels, change == 24 ? 1 : 2);

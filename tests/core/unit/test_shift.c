@@ -132,7 +132,7 @@ static void test_blur_refused(void) {
     desc.radius = NAN;
     CHECK(blurred(desc) == CELSPAN_BAD_ARGUMENT);
     desc = good;
-    desc.angle = INFINITY;
+    desc.degrees = INFINITY;
     CHECK(blurred(desc) == CELSPAN_BAD_ARGUMENT);
     desc = good;
     desc.centre.y = NAN;

@@ -12,7 +12,7 @@
  *   Order        later is nearer the camera, in every list.
  *   Colour       linear light, float, wherever it is given. What comes out is premultiplied RGBA in
  *                the frame's working space, which is linear light unless the frame says otherwise.
- *   Angles       radians, clockwise on screen; those of a blur are degrees, as in scripts.
+ *   Angles       clockwise on screen, in the unit of their name: radians, or degrees in a blur.
  *   Matrices     row-major 3x3, column vectors: x' = (a x + b y + c)/(g x + h y + i).
  *   Intervals    [x0, x1) is half-open everywhere.
  *
@@ -347,10 +347,10 @@ celspan_texture_create_radial(celspan_context *context, celspan_point centre, do
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_texture_create_focal(
     celspan_context *context, celspan_point centre, double radius, celspan_point focus,
     const celspan_stop *stops, size_t stop_count, celspan_texture **out);
-/* Stops around a centre, from 0 at `angle`, radians clockwise from up, once round to 1. Where the
+/* Stops around a centre, from 0 at `radians`, clockwise from up, once round to 1. Where the
  * last paint is not the first, the colour jumps. */
 CELSPAN_API CELSPAN_CHECKED celspan_status
-celspan_texture_create_conic(celspan_context *context, celspan_point centre, double angle,
+celspan_texture_create_conic(celspan_context *context, celspan_point centre, double radians,
                              const celspan_stop *stops, size_t stop_count, celspan_texture **out);
 typedef enum celspan_noise_kind {
   CELSPAN_NOISE_PERLIN = 0, /* smooth hills and hollows: (1 + n) / 2 */
@@ -880,8 +880,8 @@ typedef struct celspan_grade_desc {
   double contrast; /* (c - pivot) * contrast + pivot; 0 or more */
   bool has_pivot;  /* else 0.18, and 0.46 in SRGB */
   double pivot;
-  /* The matrices of SVG's and CSS's filters, with 0.2126, 0.7152 and 0.0722; hue: radians. */
-  double saturation, hue;
+  /* The matrices of SVG's and CSS's filters, with 0.2126, 0.7152 and 0.0722. */
+  double saturation, hue_radians;
   double temperature, tint; /* -1..1: red times 2^(t/2), green 2^(-tint/2), blue 2^(-t/2), divided
                                by what that makes of white's luma */
   double gamma;             /* sign(c) |c|^(1/gamma) */
@@ -1044,7 +1044,7 @@ typedef struct celspan_blur_desc {
   celspan_defocus_kernel kernel; /* AROUND */
   celspan_blur_edge edge;
   celspan_blur_along along;
-  double angle;         /* LINE: degrees, clockwise from the right */
+  double degrees;       /* LINE: clockwise from the right */
   celspan_point centre; /* ZOOM, SPIN: in the object's units */
 } celspan_blur_desc;
 
@@ -1333,7 +1333,7 @@ typedef struct celspan_rostrum_desc {
   bool has_camera_centre, has_camera_width;
   celspan_point camera_centre;
   double camera_width;
-  double camera_rotation; /* radians; turns the camera, so the picture turns back */
+  double camera_radians; /* turns the camera, so the picture turns back */
   celspan_antialias_mode antialias;
   const celspan_filter_desc *filter; /* where antialias is FILTER; borrowed; NULL: a box */
   celspan_light_texture front_texture, back_texture; /* instead of front and back; back: on the

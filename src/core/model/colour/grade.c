@@ -101,7 +101,7 @@ static cs_grade_map balance_of(const celspan_grade_desc *desc, int space) {
       {desc->exposure != 0 && !has_cdl(desc), grey_scaling(power_of_two(desc->exposure), 0)},
       {k != 1, grey_scaling(k, pivot - k * pivot)},
       {desc->saturation != 1, saturation_map(desc->saturation)},
-      {desc->hue != 0, hue_map(desc->hue)},
+      {desc->hue_radians != 0, hue_map(desc->hue_radians)},
       {desc->temperature != 0 || desc->tint != 0, balance_map(desc->temperature, desc->tint)}};
   cs_grade_map map = same;
   for (size_t i = 0; i < sizeof steps / sizeof *steps; i++)

@@ -136,7 +136,7 @@ static celspan_point direction_of(double degrees) {
 static celspan_status add_blur(celspan_context *context, celspan_object *object, const void *user,
                                celspan_object **out) {
   const celspan_blur_desc *desc = user;
-  const celspan_point direction = direction_of(desc->angle);
+  const celspan_point direction = direction_of(desc->degrees);
   cs_shift *shift;
   CS_TRY(CS_COUNTED_MAKE(context, shift));
   shift->kind = kinds[desc->along];
@@ -153,7 +153,7 @@ static celspan_status add_blur(celspan_context *context, celspan_object *object,
 static celspan_status check_blur(celspan_context *context, const celspan_blur_desc *desc) {
   CS_TRY(cs_check_range(context, "blur", "radius", desc->radius, 0, most[desc->along]));
   CS_TRY(cs_check_choice(context, "blur", "edge", (unsigned)desc->edge, CELSPAN_BLUR_EXTEND + 1));
-  CS_TRY(cs_check_number(context, "blur", "angle", desc->angle));
+  CS_TRY(cs_check_number(context, "blur", "angle", desc->degrees));
   CS_TRY(cs_check_point(context, "blur", "centre", 0, desc->centre));
   if (desc->kernel != CELSPAN_DEFOCUS_GAUSSIAN && desc->kernel != CELSPAN_DEFOCUS_BOX)
     return cs_fail(context, CELSPAN_BAD_ARGUMENT,

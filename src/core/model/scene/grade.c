@@ -49,7 +49,7 @@ static celspan_status check(celspan_context *context, const celspan_grade_desc *
   CS_TRY(cs_check_size(context, "grade", "contrast", desc->contrast));
   CS_TRY(cs_check_number(context, "grade", "pivot", desc->pivot));
   CS_TRY(cs_check_size(context, "grade", "saturation", desc->saturation));
-  CS_TRY(cs_check_number(context, "grade", "hue", desc->hue));
+  CS_TRY(cs_check_number(context, "grade", "hue", desc->hue_radians));
   CS_TRY(cs_check_range(context, "grade", "temperature", desc->temperature, -1, 1));
   CS_TRY(cs_check_range(context, "grade", "tint", desc->tint, -1, 1));
   CS_TRY(cs_check_range(context, "grade", "gamma", desc->gamma, 1.0 / CELSPAN_GRADE_GAMMA,

@@ -187,7 +187,7 @@ static void grade_colour(const celspan_grade *grade, celspan_space space, double
   decide(desc, c);
   spread(desc, space, c);
   saturate(desc->saturation, c);
-  turn(desc->hue, c);
+  turn(desc->hue_radians, c);
   warm(desc->temperature, desc->tint, c);
   bend(desc->gamma, c);
   multiply(desc, c);

@@ -35,7 +35,7 @@ static celspan_status check(celspan_context *context, const celspan_rostrum_desc
     CS_TRY(cs_check_point(context, "rostrum", "camera.centre", 0, desc->camera_centre));
   if (desc->has_camera_width)
     CS_TRY(cs_check_positive(context, "rostrum", "camera.width", desc->camera_width));
-  return cs_check_number(context, "rostrum", "camera.rotate", desc->camera_rotation);
+  return cs_check_number(context, "rostrum", "camera.rotate", desc->camera_radians);
 }
 
 void cs_rostrum_hash_own(cs_hash *hash, const celspan_rostrum *rostrum) {
@@ -47,7 +47,7 @@ void cs_rostrum_hash_own(cs_hash *hash, const celspan_rostrum *rostrum) {
   cs_value_hash_point(hash, rostrum->camera_centre);
   cs_hash_word(hash, rostrum->has_camera_width);
   cs_hash_number(hash, rostrum->camera_width);
-  cs_hash_number(hash, rostrum->camera_rotation);
+  cs_hash_number(hash, rostrum->camera_radians);
   cs_antialias_hash(hash, &rostrum->antialias);
   if (rostrum->has_size)
     cs_value_hash_point(hash, (celspan_point){rostrum->width, rostrum->height});
@@ -81,7 +81,7 @@ static void fill(celspan_rostrum *rostrum, const celspan_rostrum_desc *desc) {
   rostrum->has_camera_width = desc->has_camera_width;
   if (desc->has_camera_width)
     rostrum->camera_width = desc->camera_width;
-  rostrum->camera_rotation = desc->camera_rotation;
+  rostrum->camera_radians = desc->camera_radians;
   rostrum->space = desc->space;
   rostrum->grade = celspan_grade_ref(desc->grade);
   rostrum->grain = celspan_texture_ref(desc->grain);
@@ -206,7 +206,7 @@ celspan_status cs_rostrum_by_camera(celspan_context *context, const celspan_rost
   changed->has_camera_width = by->has_camera_width;
   changed->camera_centre = by->camera_centre;
   changed->camera_width = by->camera_width;
-  changed->camera_rotation = by->camera_rotation;
+  changed->camera_radians = by->camera_radians;
   changed->hash = hash_rostrum(changed);
   *out = changed;
   return CELSPAN_OK;
@@ -263,12 +263,12 @@ static celspan_matrix camera_matrix(const celspan_rostrum *rostrum, double film_
   celspan_matrix matrix = celspan_matrix_translation(-centre.x, -centre.y);
   matrix = celspan_matrix_then(matrix, celspan_matrix_scaling(scale, scale));
   matrix = celspan_matrix_then(
-      matrix, celspan_matrix_rotation(-rostrum->camera_rotation, (celspan_point){0, 0}));
+      matrix, celspan_matrix_rotation(-rostrum->camera_radians, (celspan_point){0, 0}));
   return celspan_matrix_then(matrix, celspan_matrix_translation(middle.x, middle.y));
 }
 
 static bool has_camera(const celspan_rostrum *rostrum) {
-  return rostrum->has_camera_centre || rostrum->has_camera_width || rostrum->camera_rotation != 0;
+  return rostrum->has_camera_centre || rostrum->has_camera_width || rostrum->camera_radians != 0;
 }
 
 celspan_matrix cs_scene_camera(const celspan_rostrum *rostrum, double film_width,

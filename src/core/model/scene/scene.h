@@ -271,7 +271,7 @@ struct celspan_rostrum {
   bool has_camera_centre, has_camera_width;
   celspan_point camera_centre;
   double camera_width;
-  double camera_rotation;
+  double camera_radians;
   cs_antialias antialias;
   celspan_space space;
   celspan_grade *grade;   /* the grade of the whole; NULL: none. A reference */

@@ -135,17 +135,17 @@ celspan_status celspan_texture_create_focal(celspan_context *context, celspan_po
 }
 
 celspan_status celspan_texture_create_conic(celspan_context *context, celspan_point centre,
-                                            double angle, const celspan_stop *stops,
+                                            double radians, const celspan_stop *stops,
                                             size_t stop_count, celspan_texture **out) {
   CS_TRY(cs_check_point(context, "conic", "centre", 0, centre));
-  CS_TRY(cs_check_number(context, "conic", "angle", angle));
+  CS_TRY(cs_check_number(context, "conic", "angle", radians));
   celspan_texture *texture = NULL;
   CS_TRY(cs_texture_create_stops(context, "conic", CS_TEXTURE_CONIC, stops, stop_count, false,
                                  &texture));
   if (texture->kind == CS_TEXTURE_CONIC) {
     cs_texture_variation *variation = cs_texture_own(texture);
     double sine, cosine;
-    cs_elementary_sincos(fmod(angle, TURN), &sine, &cosine);
+    cs_elementary_sincos(fmod(radians, TURN), &sine, &cosine);
     variation->points[0] = centre;
     variation->points[1] = (celspan_point){sine, -cosine};
   }

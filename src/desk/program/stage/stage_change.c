@@ -148,10 +148,10 @@ int cs_stage_camera(lua_State *L) {
   cs_script *script = cs_service_opened(L);
   char text[128] = "none";
   const celspan_rostrum *r = script->frame.count ? script->frame.exposures[0].rostrum : NULL;
-  if (r && (r->has_camera_centre || r->has_camera_width || r->camera_rotation != 0))
+  if (r && (r->has_camera_centre || r->has_camera_width || r->camera_radians != 0))
     snprintf(text, sizeof text, "%d,%d,%.17g,%.17g,%.17g,%.17g", r->has_camera_centre,
              r->has_camera_width, r->camera_centre.x, r->camera_centre.y, r->camera_width,
-             r->camera_rotation);
+             r->camera_radians);
   lua_pushstring(L, text);
   return 1;
 }

@@ -60,7 +60,7 @@ static const cs_field blur_rows[] = {
     {"kernel", CS_CHOICE(celspan_blur_desc, kernel, cs_nouns_kernels), .preset = "gaussian"},
     {"edge", CS_CHOICE(celspan_blur_desc, edge, cs_nouns_edges), .preset = "clear",
      .about = "Beyond its bounds: nothing, or what lies on their edge"},
-    {"angle", CS_NUMBER(celspan_blur_desc, angle),
+    {"angle", CS_NUMBER(celspan_blur_desc, degrees),
      .about = "Along a line: degrees, clockwise from the right"},
     {"zoom", CS_POINT(celspan_blur_desc, centre),
      .about = "Along rays from this point; radius: per cent of the distance, at most 90"},

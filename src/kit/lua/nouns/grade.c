@@ -29,7 +29,7 @@ static const cs_field fields[] = {
     {"pivot", CS_NUMBER(FORM, desc.pivot), CS_HAS(FORM, desc.has_pivot),
      .about = "What contrast leaves as it is", .fallback = "0.18, and 0.46 in \"srgb\""},
     {"saturation", CS_NUMBER(FORM, desc.saturation), CS_FROM(0), .preset = "1"},
-    {"hue", CS_NUMBER(FORM, desc.hue), .preset = "0", .about = "Degrees"},
+    {"hue", CS_NUMBER(FORM, desc.hue_radians), .preset = "0", .about = "Degrees"},
     {"temperature", CS_NUMBER(FORM, desc.temperature), .least = -1, .most = 1, .preset = "0",
      .about = "From blue to orange"},
     {"tint", CS_NUMBER(FORM, desc.tint), .least = -1, .most = 1, .preset = "0",
@@ -141,7 +141,7 @@ celspan_grade *cs_grade_of(const cs_form *outer) {
   cs_form form = cs_form_open(L, &named, -2);
   cs_fields_read(&form, &read);
   read.desc.lut_space = (celspan_space)(CELSPAN_SPACE_LINEAR + read.lut_space);
-  read.desc.hue = cs_placed_radians(read.desc.hue);
+  read.desc.hue_radians = cs_placed_radians(read.desc.hue_radians);
   read_matrix(&form, &read.desc);
   read_curves(&form, &read.desc);
   if (read.lut)

@@ -14,7 +14,7 @@ static const cs_field camera_fields[] = {
     {"centre", CS_POINT(DESC, camera_centre), CS_HAS(DESC, has_camera_centre)},
     {"width", CS_NUMBER(DESC, camera_width), CS_HAS(DESC, has_camera_width), CS_ABOVE_0,
      .about = "Of the visible area"},
-    {"rotate", CS_NUMBER(DESC, camera_rotation),
+    {"rotate", CS_NUMBER(DESC, camera_radians),
      .about = "Degrees; turns the camera, so the picture turns the other way", .fallback = "0"},
     {0}};
 const cs_noun cs_noun_camera = {.name = "rostrum: camera",
@@ -28,7 +28,7 @@ static void read_camera(const cs_form *form, celspan_rostrum_desc *desc) {
     return;
   cs_form inner = cs_form_open(L, &cs_noun_camera, -1);
   cs_fields_read(&inner, desc);
-  desc->camera_rotation = cs_placed_radians(desc->camera_rotation);
+  desc->camera_radians = cs_placed_radians(desc->camera_radians);
 }
 
 /* The cels of the array part: scratch memory, left on the stack. */

@@ -290,7 +290,7 @@ celspan_status cs_svg_product_read(const cs_svg_reading *reading, const cs_svg_r
 /* ---------------------------------------------------------------- types of matrices */
 
 void cs_svg_hue_set(celspan_grade_desc *desc, double degrees) {
-  desc->hue = DEGREES_TO_RADIANS * fmod(degrees, 360);
+  desc->hue_radians = DEGREES_TO_RADIANS * fmod(degrees, 360);
 }
 
 celspan_status cs_svg_clamped_grade(const cs_svg_reading *reading, celspan_grade_desc *desc,
