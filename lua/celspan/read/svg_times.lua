@@ -28,7 +28,7 @@ local ordered = require "celspan.ordered"
 local times = {}
 
 local huge = math.huge
-local STEPS = 1000000 -- the most beginnings, ends and messages between animations up to a time
+local STEPS = 500000 -- the most beginnings, ends and messages between animations up to a time
 local TRIES = 64 -- steps for each animation that are tried to find whether they ever end
 local SCAN = 1 / 16 -- of a step: a moment that is looked at
 --- How often an interval may change at one time: then it is part of a circle, and stays.
