@@ -9,7 +9,7 @@ describe("the structure of src", function()
   setup(function()
     bench = workbench.new()
     assert(os.execute(("mkdir -p '%s/src/core/base'"):format(bench.folder)))
-    bench:write("src/meson.build", "foreach layer : ['base']\n")
+    bench:write("src/meson.build", "foreach layer : ['core/base']\n")
   end)
   teardown(function() bench:remove() end)
 
@@ -25,7 +25,7 @@ describe("the structure of src", function()
       ["a.h"] = "typedef struct cs_thing { int a; } cs_thing;\n",
       ["b.c"] = "typedef struct cs_thing { int b; } cs_thing;\n",
     })
-    assert.are.same({ "cs_thing: base/a.h:1, base/b.c:1" }, doubled)
+    assert.are.same({ "cs_thing: core/base/a.h:1, core/base/b.c:1" }, doubled)
   end)
 
   it("takes an opaque type for one, however many sources define it", function()
@@ -42,7 +42,7 @@ describe("the structure of src", function()
       ["a.c"] = "double a(float x) {\n  return (double)x +\n    (double)(float)1.1;\n}\n",
       ["b.c"] = "double b(double x) { return cs_number_single(x); }\n",
     }
-    assert.are.same({ "base/a.c:3" }, house.roundings(source))
+    assert.are.same({ "core/base/a.c:3" }, house.roundings(source))
   end)
 
   local SELF_CHECK = "#include \"base/a.h\"\nint cs_a_is_sound(void) { return 1; }\n"
@@ -54,7 +54,7 @@ describe("the structure of src", function()
       ["b.h"] = "int cs_b(void);\n",
       ["b.c"] = "int cs_b(void) { return cs_a(); }\n",
     })
-    assert.are.same({ { "base/a", "base/b" } }, circles)
+    assert.are.same({ { "core/base/a", "core/base/b" } }, circles)
   end)
 
   it("takes no source for a circle that includes the header of its own functions", function()
@@ -65,6 +65,6 @@ describe("the structure of src", function()
     }
     assert.are.same({}, house.circles(tree_of(files)))
     files["check.c"] = SELF_CHECK:gsub("return 1", "return cs_a()")
-    assert.are.same({ { "base/a", "base/check" } }, house.circles(tree_of(files)))
+    assert.are.same({ { "core/base/a", "core/base/check" } }, house.circles(tree_of(files)))
   end)
 end)
