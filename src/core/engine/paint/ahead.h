@@ -18,7 +18,7 @@
 #include "engine/span/run.h"
 
 #define CS_OVER_PLANES_ROOM (CS_OVER_ROW_BATCH + 16) /* whole registers are read and written */
-#define CS_OVER_PLANES_ITEMS 64 /* longer programs, which are rare, are not folded ahead */
+#define CS_OVER_CHANNELS_ITEMS 64 /* longer programs, which are rare, are not folded ahead */
 
 typedef struct cs_over_channels {
   float light[3][CS_OVER_PLANES_ROOM], through[CS_OVER_PLANES_ROOM];
@@ -29,7 +29,7 @@ typedef struct cs_over_channels {
 /* The pixels of a run, folded ahead. */
 typedef struct cs_over_channels_ahead {
   cs_over_channels pixels;
-  uint32_t layers[CS_OVER_PLANES_ITEMS]; /* the layers of the program's items */
-  uint32_t length;                       /* 0: nothing has been folded */
+  uint32_t layers[CS_OVER_CHANNELS_ITEMS]; /* the layers of the program's items */
+  uint32_t length;                         /* 0: nothing has been folded */
   cs_run run;
 } cs_over_channels_ahead;

@@ -94,7 +94,7 @@ static inline const cs_over_channels_ahead *find_ahead(const cs_painter *painter
 
 void cs_over_channels_prepare(cs_painter *painter, const cs_program *program, cs_run run) {
   const int32_t count = run.x1 - run.x0;
-  if (count > CS_OVER_ROW_BATCH || program->length > CS_OVER_PLANES_ITEMS ||
+  if (count > CS_OVER_ROW_BATCH || program->length > CS_OVER_CHANNELS_ITEMS ||
       find_ahead(painter, program, run) || !cs_over_channels_fits(painter->stack, program))
     return;
   cs_over_channels_ahead *ahead = &painter->ahead[painter->next_ahead];
