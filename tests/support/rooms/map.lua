@@ -69,7 +69,7 @@ end
 
 --- The folders of src/ with their figures; of one house alone, if `house` is given.
 local function put_folders(tree, root, house)
-  print(("%-22s %5s %6s"):format("folder", "units", "lines"))
+  print(("%-24s %5s %6s"):format("folder", "units", "lines"))
   for _, folder in ipairs(folders(tree)) do
     local is_house = not folder:find "/"
     local units, lines = units_of(tree, folder)
@@ -77,8 +77,8 @@ local function put_folders(tree, root, house)
     local figures = units > 0 and ("%5d %6d"):format(units, lines) or (" "):rep(12)
     if not house or folder:match "^[^/]+" == house then
       if is_house then print() end
-      put_wrapped(("%-22s %s  "):format(name, figures), sentence_of(root, "src/" .. folder) or "",
-        63)
+      put_wrapped(("%-24s %s  "):format(name, figures), sentence_of(root, "src/" .. folder) or "",
+        61)
     end
   end
 end
