@@ -11,6 +11,7 @@ bool cs_roots_add(cs_roots *roots, const char *folder) {
     return errno != ENOMEM;
   if (roots->count == CS_ROOTS_MOST) {
     free(resolved);
+    errno = ENOSPC;
     return false;
   }
   roots->paths[roots->count++] = resolved;

@@ -17,8 +17,8 @@ typedef struct cs_roots {
   size_t count;
 } cs_roots;
 
-/* Adds a folder; "" is the current one. A folder that does not exist is ignored. false: there are
- * too many folders, or, with ENOMEM in errno, there is no memory. */
+/* Adds a folder; "" is the current one. A folder that does not exist is ignored. false: with ENOSPC
+ * in errno there are too many folders, with ENOMEM there is no memory. */
 bool cs_roots_add(cs_roots *roots, const char *folder);
 void cs_roots_finish(cs_roots *roots);
 /* Whether the path is below one of the folders. Without memory: false, with ENOMEM in errno. */

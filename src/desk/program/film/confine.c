@@ -300,7 +300,10 @@ static cs_exit enter_strict(const cs_request *request, const cs_roots *roots) {
   bool is_good = copy_roots(roots, &read) && add_own_folders(request, &read) &&
                  add_report(request, &write) &&
                  (!folder[0] || (cs_roots_add(&write, folder) && cs_roots_add(&read, folder)));
-  const char *refusal = is_good ? NULL : "there are too many folders to read";
+  bool lacks_memory = !is_good && errno == ENOMEM;
+  const char *refusal = is_good        ? NULL
+                        : lacks_memory ? "out of memory"
+                                       : "there are too many folders to read";
   if (!refusal && !cs_client_confine(&read))
     refusal = "the picture decoder cannot be started";
   if (!refusal)
@@ -311,7 +314,7 @@ static cs_exit enter_strict(const cs_request *request, const cs_roots *roots) {
     return CS_EXIT_OK;
   cs_report_error("--strict: %s; without --strict, only Lua's own sandbox confines the script",
                   refusal);
-  return CS_EXIT_LIMIT;
+  return lacks_memory ? CS_EXIT_MEMORY : CS_EXIT_LIMIT;
 }
 
 cs_exit cs_confine_open(const cs_request *request, const char *script, cs_confined *out) {

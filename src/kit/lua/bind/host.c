@@ -1,5 +1,6 @@
 #include "lua/bind/host.h"
 
+#include <errno.h>
 #include <lauxlib.h>
 #include <string.h>
 
@@ -230,9 +231,11 @@ bool cs_host_confines(lua_State *L) {
 
 void cs_host_allow(lua_State *L, const char *folder) {
   const cs_host_rules *rules = cs_host_get(L)->rules;
-  if (rules && rules->allow && !rules->allow(rules->user, folder))
-    luaL_error(L, "%s: there are too many folders, or no memory, to let scripts read there",
-               folder);
+  if (!rules || !rules->allow || rules->allow(rules->user, folder))
+    return;
+  if (errno == ENOMEM)
+    cs_host_try(L, folder, cs_fail_memory(cs_host_context(L)));
+  luaL_error(L, "%s: there are too many folders to let scripts read there", folder);
 }
 
 bool cs_host_may_write(lua_State *L, const char *path) {
