@@ -6,8 +6,9 @@
  *   STARVE_FORKED=1    only in processes that were forked, from the fork on
  *   STARVE_LEVEL=0     only in the first program; 1: in those that it starts; 2: in those that
  *                      these start
- *   STARVE_COUNT=FILE  the number of allocations is written there at the end, and the numbers
- *                      before and after the last module was loaded
+ *   STARVE_PATH=N      the N-th path that is resolved is not, for lack of memory
+ *   STARVE_COUNT=FILE  the number of allocations is written there at the end, the numbers before
+ *                      and after the last module was loaded, and the number of resolved paths
  *
  * With a run for each of the hundred thousand allocations that loading a library makes, the library
  * would be loaded as often. So one run tries many:
@@ -54,6 +55,7 @@ void *__libc_memalign(size_t alignment, size_t size);
 
 static atomic_long made, fail_at = -1, until;
 static long loading, loaded;          /* counts of allocations */
+static atomic_long resolved_paths;    /* their count */
 static atomic_bool lasts, is_waiting; /* for a fork */
 static bool is_spared;                /* a program of another level */
 
@@ -180,10 +182,24 @@ int posix_memalign(void **block, size_t alignment, size_t size) {
   return *block ? 0 : ENOMEM;
 }
 
+/* What the loader found by this name after this library. */
+static void find_next(const char *name, void *function) {
+  void *symbol = dlsym(RTLD_NEXT, name);
+  memcpy(function, &symbol, sizeof symbol);
+}
+
+char *realpath(const char *path, char *resolved) {
+  char *(*own)(const char *, char *);
+  find_next("realpath", &own);
+  if (is_spared || ++resolved_paths != read_number("STARVE_PATH"))
+    return own(path, resolved);
+  errno = ENOMEM;
+  return NULL;
+}
+
 void *dlopen(const char *name, int flags) {
   void *(*own)(const char *, int);
-  void *symbol = dlsym(RTLD_NEXT, "dlopen");
-  memcpy(&own, &symbol, sizeof own);
+  find_next("dlopen", &own);
   loading = made;
   void *module = own(name, flags);
   loaded = made;
@@ -193,7 +209,8 @@ void *dlopen(const char *name, int flags) {
 __attribute__((destructor)) static void tell(void) {
   char text[64];
   const char *path = getenv("STARVE_COUNT");
-  int length = snprintf(text, sizeof text, "%ld %ld %ld\n", (long)made, loading, loaded);
+  int length = snprintf(text, sizeof text, "%ld %ld %ld %ld\n", (long)made, loading, loaded,
+                        (long)resolved_paths);
   if (path && !is_spared)
     write_line(path, O_TRUNC, text, length);
 }

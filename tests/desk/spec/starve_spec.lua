@@ -8,6 +8,7 @@ local prng = require "tests.support.prng"
 local system = require "tests.support.system"
 local workbench = require "tests.support.workbench"
 
+local NO_LIBRARY = "the library that makes allocations fail is not built"
 local LIBRARY = workbench.build .. "/tests/libstarve.so"
 -- By its name, because a path in LD_PRELOAD ends at a space.
 local PRELOADED = ("LD_LIBRARY_PATH='%s/tests' LD_PRELOAD=libstarve.so"):format(workbench.build)
@@ -49,8 +50,7 @@ local JOIN = "join 'strips/#.png' -o out/f.01."
 local function starve(plan, ending, command)
   local variables = { ("STARVE_AT=%d STARVE_COUNT=count STARVE_ENDINGS=endings"):format(plan.at) }
   for name, value in pairs { LASTING = plan.lasts and 1, FORKED = plan.forked and 1,
-    LEVEL = plan.level or false,
-                             UNTIL = plan.last or false } do
+    LEVEL = plan.level or false, UNTIL = plan.last or false, PATH = plan.path or false } do
     if value then variables[#variables + 1] = ("STARVE_%s=%d"):format(name, value) end
   end
   return bench:shell(("cd '%s' && rm -rf out && %s %s %s '%s' %s%s"):format(bench.folder,
@@ -79,8 +79,9 @@ end
 --- Returns the exit code.
 local function check(plan, ending, right, command)
   local code, _, err = starve(plan, ending, command)
-  local where = ("allocation %d%s%s%s: %s")
-    :format(plan.at, plan.lasts and " and all after it" or "",
+  local where = ("%s %d%s%s%s: %s")
+    :format(plan.path and "path" or "allocation", plan.path or plan.at,
+    plan.lasts and " and all after it" or "",
     plan.forked and ", forked" or "", plan.level and ", level " .. plan.level or "", err)
   for _, name in ipairs(bench:files "out") do
     assert.truthy(name:find "^f%.", where .. " left " .. name)
@@ -175,6 +176,17 @@ local function sweep_info(lasts)
   end
 end
 
+--- Each path that a render resolves is not resolved once. Returns how many there are.
+local function sweep_paths(options)
+  write_film(scenes.outlines)
+  local render = RENDER:format(1):gsub("^render", "%0" .. options)
+  local code, _, err = starve({ at = 0 }, "png", render)
+  assert.are.equal(0, code, err)
+  local right, count = frames "png", tonumber(bench:read("count"):match " (%d+)\n")
+  for path = 1, count do check({ at = 0, path = path }, "png", right, render) end
+  return count
+end
+
 --- The endings of copies that the program treats as lack of memory
 --- (plugins/isolate/worker_loop.c): an exit code, or killed or trapped.
 local STARVED = { [33] = true, [127] = true, [128 + 9] = true, [128 + 5] = true }
@@ -266,13 +278,13 @@ local function sweep_join(lasts)
   end
 end
 
+local function has_library() return system.read(LIBRARY) ~= nil end
+
 --- Runs once with one allocation failing, once with all after it too.
 local function both(name, work)
   for _, lasts in ipairs { false, true } do
     it((lasts and "for good, " or "for once, ") .. name, function()
-      local library = io.open(LIBRARY)
-      if not library then return pending "the library that makes allocations fail is not built" end
-      library:close()
+      if not has_library() then return pending(NO_LIBRARY) end
       return work(lasts)
     end)
   end
@@ -280,6 +292,11 @@ end
 
 describe("without memory #plain", function()
   both("strips are joined, or the failure is reported", sweep_join)
+  it("every path is resolved, or its failure is reported", function()
+    if not has_library() then return pending(NO_LIBRARY) end
+    assert.truthy(sweep_paths "" > 2)
+    assert.truthy(sweep_paths " --strict" > 2)
+  end)
   both("a drawing is described, or the failure is reported", sweep_info)
   for scene in pairs(art) do
     both(scene .. " are right", function(lasts) return sweep_art(scene, lasts) end)
