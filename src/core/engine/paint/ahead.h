@@ -17,11 +17,11 @@
 #include "engine/paint/over_row.h"
 #include "engine/span/run.h"
 
-#define CS_OVER_PLANES_ROOM (CS_OVER_ROW_BATCH + 16) /* whole registers are read and written */
+#define CS_OVER_CHANNELS_ROOM (CS_OVER_ROW_BATCH + 16) /* whole registers are read and written */
 #define CS_OVER_CHANNELS_ITEMS 64 /* longer programs, which are rare, are not folded ahead */
 
 typedef struct cs_over_channels {
-  float light[3][CS_OVER_PLANES_ROOM], through[CS_OVER_PLANES_ROOM];
+  float light[3][CS_OVER_CHANNELS_ROOM], through[CS_OVER_CHANNELS_ROOM];
   int32_t count; /* pixels */
   float keep;    /* the share of transparency that the mattes of back lights leave */
 } cs_over_channels;
