@@ -226,7 +226,6 @@ static cs_exit open_roots(const cs_request *request, const char *script, cs_conf
   out->limits.folders = out->folders;
   out->limits.search = getenv("CELSPAN_PATH");
   folder_of(script, folder);
-  errno = 0;
   return cs_roots_add(roots, folder) && cs_sandbox_add_roots(&out->limits, roots) ? CS_EXIT_OK
                                                                                   : refuse_roots();
 }

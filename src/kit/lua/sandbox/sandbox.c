@@ -22,8 +22,10 @@ static bool add_template_root(cs_roots *roots, const char *text, size_t length) 
   for (size_t i = 0; i < mark && i < length; i++)
     if (text[i] == '/')
       end = i ? i : 1;
-  if (end >= sizeof folder)
+  if (end >= sizeof folder) {
+    errno = ENAMETOOLONG;
     return false;
+  }
   memcpy(folder, text, end);
   folder[end] = '\0';
   return cs_roots_add(roots, folder);
@@ -32,7 +34,6 @@ static bool add_template_root(cs_roots *roots, const char *text, size_t length) 
 bool cs_sandbox_add_roots(const celspan_lua_limits *limits, cs_roots *roots) {
   const char *search = limits->search ? limits->search : "";
   bool is_good = true;
-  errno = 0;
   for (size_t i = 0; i < limits->folder_count && is_good; i++)
     is_good = cs_roots_add(roots, limits->folders[i]);
   for (size_t length; *search && is_good; search += length + (search[length] == ';')) {

@@ -20,7 +20,8 @@ typedef struct cs_sandbox {
 } cs_sandbox;
 
 /* Adds the folders that scripts may read under these limits: the folders of the limits, and the
- * folders of templates such as "/lib/?.lua". false: as with cs_roots_add. */
+ * folders of templates such as "/lib/?.lua". false: as with cs_roots_add, or, with ENAMETOOLONG in
+ * errno, a folder is too long. */
 bool cs_sandbox_add_roots(const celspan_lua_limits *limits, cs_roots *roots);
 
 /* Confines the state, in which celspan is open. is_trusted: only limits apply. The state owns the
