@@ -159,13 +159,22 @@ static celspan_status make_gradient(program *p, celspan_texture **out) {
   for (size_t i = 0; i < POINTS && i < stop_count; i++)
     stops[i] = (celspan_stop){(double)i / POINTS + (double)share(p) / POINTS, paint(p)};
   const celspan_stop *list = stop_count == 0 ? NULL : stops;
-  switch (take(p, 4)) {
+  celspan_fitted_desc fitted = CELSPAN_FITTED_DESC;
+  switch (take(p, 5)) {
   case 0:
     return celspan_texture_create_linear(p->context, point(p), point(p), list, stop_count, out);
   case 1:
     return celspan_texture_create_radial(p->context, point(p), number(p), list, stop_count, out);
   case 2:
     return celspan_texture_create_conic(p->context, point(p), number(p), list, stop_count, out);
+  case 3:
+    fitted.fit = (celspan_gradient_fit)word(p, CELSPAN_GRADIENT_ELLIPSE + 1);
+    fitted.to_x = (int)take(p, 4) - 1;
+    fitted.to_y = (int)take(p, 4) - 1;
+    fitted.degrees = number(p);
+    fitted.stops = list;
+    fitted.stop_count = stop_count;
+    return celspan_texture_create_fitted(p->context, &fitted, out);
   default:
     return celspan_texture_create_focal(p->context, point(p), number(p), point(p), list, stop_count,
                                         out);

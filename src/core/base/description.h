@@ -25,6 +25,7 @@ typedef struct cs_description {
   EACH(celspan_context_desc)                                                                       \
   EACH(celspan_picture_desc)                                                                       \
   EACH(celspan_pattern_desc)                                                                       \
+  EACH(celspan_fitted_desc)                                                                        \
   EACH(celspan_noise_desc)                                                                         \
   EACH(celspan_surface_desc)                                                                       \
   EACH(celspan_rect_desc)                                                                          \

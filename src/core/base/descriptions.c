@@ -8,6 +8,7 @@ CS_DESCRIBE(celspan_context_desc, struct_size, .picture_bytes = (size_t)512 << 2
             .defocus_bytes = (size_t)256 << 20)
 CS_DESCRIBE(celspan_picture_desc, struct_size, )
 CS_DESCRIBE(celspan_pattern_desc, box, )
+CS_DESCRIBE(celspan_fitted_desc, stop_count, .to_y = 1)
 CS_DESCRIBE(celspan_noise_desc, kind, .octaves = 4, .size = 100, .gain = 0.5, .fades = true)
 CS_DESCRIBE(celspan_surface_desc, format, )
 CS_DESCRIBE(celspan_rect_desc, height, )

@@ -6,6 +6,7 @@
  *   model/scene/value.h            how a value is made: its memory, its hash, its references
  *   model/scene/primitive_data.h   every primitive has an outline, procedures too
  *   model/scene/texture.h          the kinds of textures, and what each has
+ *   model/scene/texture_fit.h      no primitive has a gradient without points
  *   model/scene/bounds.h           boxes are tight, except the one that says otherwise
  *   model/scene/walk.h             each value below another is visited, shared ones each time they
  *                                  occur
@@ -27,5 +28,6 @@
 #include "model/scene/primitive_data.h"
 #include "model/scene/scene.h"
 #include "model/scene/texture.h"
+#include "model/scene/texture_fit.h"
 #include "model/scene/value.h"
 #include "model/scene/walk.h"

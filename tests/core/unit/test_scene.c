@@ -57,6 +57,53 @@ static void test_gradient_doors(studio *s) {
   CHECK(out == NULL);
 }
 
+/* A rectangle with a gradient without points has the hash of one with points. */
+static void check_fitted(studio *s, const celspan_fitted_desc *desc, celspan_point from,
+                         celspan_point to) {
+  celspan_texture *textures[2] = {NULL, NULL};
+  celspan_object *rects[2] = {NULL, NULL};
+  CHECK(celspan_texture_create_fitted(s->context, desc, &textures[0]) == CELSPAN_OK);
+  CHECK(celspan_texture_create_linear(s->context, from, to, desc->stops, desc->stop_count,
+                                      &textures[1]) == CELSPAN_OK);
+  for (int i = 0; i < 2; i++) {
+    const celspan_rect_desc rect = {sizeof rect, 10, 20, 30, 40, 0, textures[i]};
+    CHECK(celspan_object_create_rect(s->context, &rect, &rects[i]) == CELSPAN_OK);
+  }
+  CHECK(memcmp(&rects[0]->hash, &rects[1]->hash, sizeof rects[0]->hash) == 0);
+  for (int i = 0; i < 2; i++) {
+    celspan_object_unref(rects[i]);
+    celspan_texture_unref(textures[i]);
+  }
+}
+
+static void test_fitted(studio *s) {
+  celspan_texture *out = NULL;
+  const celspan_stop stops[2] = {{0, red}, {1, {{0, 0, 1}, {1, 1, 1}, 1}}};
+  celspan_fitted_desc desc = CELSPAN_FITTED_DESC;
+  desc.stops = stops;
+  desc.stop_count = 2;
+  check_fitted(s, &desc, (celspan_point){25, 20}, (celspan_point){25, 60});
+  desc.to_x = -1;
+  desc.to_y = 0;
+  check_fitted(s, &desc, (celspan_point){40, 40}, (celspan_point){10, 40});
+  desc.fit = CELSPAN_GRADIENT_ANGLE;
+  desc.degrees = 0;
+  check_fitted(s, &desc, (celspan_point){25, 60}, (celspan_point){25, 20});
+  desc.fit = CELSPAN_GRADIENT_SIDE;
+  desc.to_x = 0;
+  REFUSED(s, celspan_texture_create_fitted(s->context, &desc, &out),
+          "linear: to_x and to_y are both 0, which is no side; one of them must be -1 or 1");
+  desc.to_x = 2;
+  REFUSED(s, celspan_texture_create_fitted(s->context, &desc, &out),
+          "linear: to_x is 2; it must be between -1 and 1");
+  desc.fit = CELSPAN_GRADIENT_ELLIPSE;
+  desc.to_x = 0;
+  desc.stop_count = 0;
+  REFUSED(s, celspan_texture_create_fitted(s->context, &desc, &out),
+          "radial: there is no stop; it needs one or more");
+  CHECK(out == NULL);
+}
+
 static void test_picture_door(studio *s) {
   celspan_texture *out = NULL;
   celspan_picture_desc desc = {
@@ -905,6 +952,7 @@ int main(void) {
       test_nested_doors,
       test_paint_door,
       test_gradient_doors,
+      test_fitted,
       test_picture_door,
       test_rect_door,
       test_outline_doors,

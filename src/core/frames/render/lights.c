@@ -2,6 +2,7 @@
 
 #include "frames/render/layers.h"
 #include "model/geometry/matrix.h"
+#include "model/scene/texture_fit.h"
 
 static cs_v4 colour_of(celspan_light light) { return (cs_v4){light.r, light.g, light.b, 0}; }
 
@@ -19,6 +20,7 @@ static celspan_status find_inverse(const cs_compiler *c, const celspan_rostrum *
   celspan_matrix matrix = cs_scene_camera(rostrum, film->width, film->height);
   if (light->on == CELSPAN_LIGHT_ON_CEL)
     CS_TRY(cs_scene_cel_matrix(c->context, rostrum, index, film->width, film->height, &matrix));
+  matrix = cs_texture_fit_light(light->texture, &matrix, film->width, film->height);
   matrix = celspan_matrix_then(matrix, film->to_pixels);
   *found = celspan_matrix_inverse(cs_matrix_facing(&matrix), out);
   return CELSPAN_OK;

@@ -352,6 +352,31 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_texture_create_focal(
 CELSPAN_API CELSPAN_CHECKED celspan_status
 celspan_texture_create_conic(celspan_context *context, celspan_point centre, double radians,
                              const celspan_stop *stops, size_t stop_count, celspan_texture **out);
+/* How a gradient without points lies in the bounds of each primitive that it paints, before the
+ * primitive's transform; of a text from the ascent of its first line to the descent of its last
+ * one, and of a stroke without its dashes. As a light, in the frame of the film. */
+typedef enum celspan_gradient_fit {
+  CELSPAN_GRADIENT_SIDE = 0, /* to a side, or from corner to corner */
+  CELSPAN_GRADIENT_ANGLE,    /* at an angle, from the first corner to the last one that it meets */
+  CELSPAN_GRADIENT_ELLIPSE   /* out from the middle to the ellipse that touches all sides */
+} celspan_gradient_fit;
+
+typedef struct celspan_fitted_desc {
+  size_t struct_size;
+  celspan_gradient_fit fit;
+  int to_x, to_y; /* SIDE: where 1 lies: -1 is left and the top, 1 right and the bottom */
+  double degrees; /* ANGLE: where 1 lies, clockwise from up; as a light, of a square frame */
+  const celspan_stop *stops;
+  size_t stop_count;
+} celspan_fitted_desc;
+
+CELSPAN_DESCRIPTION(celspan_fitted_desc)
+#define CELSPAN_FITTED_DESC (celspan_fitted_desc_initial())
+
+/* A gradient without points: by default from the top to the bottom. In bounds without a size it is
+ * its first colour. out: new      Errors: NO_MEMORY, BAD_ARGUMENT. */
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_texture_create_fitted(
+    celspan_context *context, const celspan_fitted_desc *desc, celspan_texture **out);
 typedef enum celspan_noise_kind {
   CELSPAN_NOISE_PERLIN = 0, /* smooth hills and hollows: (1 + n) / 2 */
   CELSPAN_NOISE_VALUE,      /* a random value at each corner of a cell: (1 + n) / 2 */

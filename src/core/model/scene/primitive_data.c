@@ -3,6 +3,7 @@
 #include "model/geometry/matrix.h"
 #include "model/scene/check.h"
 #include "model/scene/texture.h"
+#include "model/scene/texture_fit.h"
 #include "model/scene/texture_unroll.h"
 #include "model/scene/value.h"
 
@@ -245,6 +246,8 @@ celspan_status cs_primitive_data_object(celspan_context *context, cs_primitive_d
 
 celspan_status cs_primitive_data_wrap(celspan_context *context, cs_primitive_data *data,
                                       celspan_status status, celspan_object **out) {
+  if (status == CELSPAN_OK && data->texture)
+    status = cs_texture_fit(context, &data->texture, &data->bounds);
   if (status == CELSPAN_OK && data->texture)
     status = cs_texture_unroll(context, &data->texture, &data->bounds);
   if (status == CELSPAN_OK)

@@ -27,6 +27,7 @@
 #include "model/scene/oracle.h"
 #include "model/scene/pattern.h"
 #include "model/scene/shift.h"
+#include "model/scene/texture_fit.h"
 
 /* The point that is evaluated, and the film that it belongs to: the film of the call, or the film
  * of a rostrum that is an object. */
@@ -278,10 +279,11 @@ static celspan_status sample_texture(const probe_call *probe, const cs_light *li
                                      const celspan_matrix *matrix, light_sample *out) {
   const celspan_texture *texture = light->texture;
   const celspan_box film = {0, 0, probe->film_width, probe->film_height};
+  const celspan_matrix whole = cs_texture_fit_light(texture, matrix, film.width, film.height);
   celspan_point own;
   cs_oracle_paint shade;
   *out = (light_sample){{0, 0, 0}, 0};
-  if (!cs_inside_own_point(matrix, probe->point, &own))
+  if (!cs_inside_own_point(&whole, probe->point, &own))
     return CELSPAN_OK;
   if (texture->kind == CS_TEXTURE_PICTURE && !texture->variation->has_box &&
       texture->variation->wrap == CELSPAN_WRAP_CLEAR &&

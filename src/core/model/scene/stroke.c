@@ -3,6 +3,7 @@
 #include "model/scene/check.h"
 #include "model/scene/pattern.h"
 #include "model/scene/primitive_data.h"
+#include "model/scene/texture_fit.h"
 #include "model/stroke/outliner.h"
 
 #define NOUN "stroke"
@@ -90,10 +91,33 @@ static celspan_status find_bounds(celspan_context *context, cs_primitive_data *d
   return CELSPAN_OK;
 }
 
+/* Fits a gradient without points to the whole line, without dashes, tapers and parts. */
+static celspan_status fit_texture(celspan_context *context, cs_primitive_data *data,
+                                  const celspan_stroke_desc *desc, const cs_outline *outline,
+                                  const cs_outline_closed *closed) {
+  const celspan_matrix identity = celspan_matrix_identity();
+  celspan_stroke_desc whole = *desc;
+  cs_stroke stroke;
+  celspan_box box = {0, 0, 0, 0};
+  bool is_seen;
+  if (data->texture->variation->fit == CS_TEXTURE_FIT_NONE)
+    return CELSPAN_OK;
+  whole.dashes = NULL;
+  whole.dash_count = 0;
+  whole.taper[0] = whole.taper[1] = whole.from = 0;
+  whole.to = 1;
+  celspan_status status = cs_stroke_init(context, &stroke, &whole, outline, closed);
+  if (status == CELSPAN_OK)
+    status = cs_stroke_bounds(context, &stroke, &identity, &box, &is_seen);
+  cs_stroke_finish(&stroke, context->memory);
+  return status == CELSPAN_OK ? cs_texture_fit(context, &data->texture, &box) : status;
+}
+
 static celspan_status fill(celspan_context *context, cs_primitive_data *data,
                            const celspan_stroke_desc *desc, const cs_outline *outline,
                            const cs_outline_closed *closed) {
   data->primitive_count = data->shape_count = 1;
+  CS_TRY(fit_texture(context, data, desc, outline, closed));
   CS_TRY(CS_MAKE(context, data->stroke, 1));
   cs_outline_init(&data->stroke->line);
   CS_TRY(cs_stroke_init(context, data->stroke, desc, outline, closed));

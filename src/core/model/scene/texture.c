@@ -83,6 +83,8 @@ static cs_hash hash_texture(const celspan_texture *texture) {
     cs_value_hash_paint(&hash, &variation->stops[i].paint);
   }
   cs_hash_word(&hash, variation->spread);
+  if (variation->fit != CS_TEXTURE_FIT_NONE)
+    cs_hash_word(&hash, variation->fit);
   cs_hash_word(&hash, variation->has_matrix);
   if (variation->has_matrix)
     cs_value_hash_matrix(&hash, &variation->matrix);

@@ -39,6 +39,14 @@ typedef struct cs_texture_tile_calls {
   void (*release)(celspan_rostrum *tile);
 } cs_texture_tile_calls;
 
+/* How a gradient without points lies in the bounds of what it paints: texture_fit.h. */
+typedef enum cs_texture_fit_kind {
+  CS_TEXTURE_FIT_NONE, /* it has points */
+  CS_TEXTURE_FIT_SIDE, /* LINEAR: to a side or to a corner */
+  CS_TEXTURE_FIT_ANGLE,
+  CS_TEXTURE_FIT_ELLIPSE /* RADIAL */
+} cs_texture_fit_kind;
+
 /* The values of textures that vary from point to point. */
 typedef struct cs_texture_variation {
   celspan_point points[3]; /* TRIANGLE: corners; LINEAR: from, to; RADIAL: centre, and the way
@@ -63,6 +71,7 @@ typedef struct cs_texture_variation {
   celspan_rostrum *tile; /* PATTERN: one box of it; a reference */
   cs_hash tile_hash;
   const cs_texture_tile_calls *calls; /* how the tile is asked; NULL: there is none */
+  cs_texture_fit_kind fit;            /* NONE in textures of primitives */
 } cs_texture_variation;
 
 struct celspan_texture {

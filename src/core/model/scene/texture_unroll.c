@@ -172,6 +172,9 @@ celspan_status celspan_texture_with_matrix(celspan_context *context, celspan_tex
   celspan_matrix whole, inverse;
   CS_TRY(cs_check_given(context, "matrix", "the matrix", matrix));
   CS_TRY(cs_check_given(context, "matrix", "the texture", texture));
+  if (texture->variation->fit != CS_TEXTURE_FIT_NONE)
+    return cs_fail(context, CELSPAN_BAD_ARGUMENT,
+                   "matrix: a gradient without points fits what it paints; give it points");
   CS_TRY(copy(context, texture, &made));
   celspan_status status = cs_check_transform(
       context, made->variation->has_matrix ? &made->variation->matrix : &identity, matrix, &whole);
