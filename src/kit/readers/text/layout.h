@@ -69,8 +69,9 @@ typedef struct cs_layout {
   size_t glyph_count, glyph_capacity;
   cs_text_letter *letters;
   size_t letter_count, letter_capacity;
-  int32_t line; /* the number of the next line */
-  double width; /* the width of the widest line */
+  int32_t line;            /* the number of the next line */
+  double width;            /* the width of the widest line */
+  celspan_texture *fitted; /* the texture of all letters; NULL: not yet made */
 } cs_layout;
 
 /* Lays out a text by its desc, which has not been checked yet: fonts, characters, lines. The layout

@@ -1,4 +1,5 @@
 /* The public constructors of text: all letters as one primitive, or one primitive a letter. */
+#include <math.h>
 #include <string.h>
 
 #include "celspan/text.h"
@@ -33,6 +34,38 @@ static celspan_status append_glyphs(cs_layout *layout, size_t first, size_t coun
   return CELSPAN_OK;
 }
 
+/* The box of the whole text: as wide as its lines, from the ascent of the first one to the descent
+ * of the last one. */
+static celspan_box box_of(const cs_layout *layout) {
+  const celspan_text_metrics metrics = cs_typeset_measure(layout);
+  const cs_text_letter *letters = layout->letters;
+  if (layout->letter_count == 0)
+    return (celspan_box){0, 0, 0, 0};
+  double left = letters[0].x, right = left;
+  for (size_t i = 0; i < layout->letter_count; i++) {
+    left = fmin(left, letters[i].x);
+    right = fmax(right, letters[i].x + letters[i].advance);
+  }
+  const double below = letters[0].line * layout->desc->leading * layout->desc->size;
+  return (celspan_box){left, letters[0].y - below - metrics.ascent, right - left, metrics.height};
+}
+
+/* Replaces a gradient without points by the one that fits the whole text, which is made once. */
+static celspan_status fit_texture(cs_layout *layout, celspan_texture **texture) {
+  if ((*texture)->variation->fit == CS_TEXTURE_FIT_NONE)
+    return CELSPAN_OK;
+  if (!layout->fitted) {
+    const celspan_box box = box_of(layout);
+    celspan_texture *fitted = celspan_texture_ref(*texture);
+    celspan_status status = cs_texture_fit(layout->context, &fitted, &box);
+    layout->fitted = fitted;
+    CS_TRY(status);
+  }
+  celspan_texture_unref(*texture);
+  *texture = celspan_texture_ref(layout->fitted);
+  return CELSPAN_OK;
+}
+
 /* An object of `count` glyphs from `first` on. */
 static celspan_status create_object(cs_layout *layout, size_t first, size_t count,
                                     celspan_object **out) {
@@ -45,6 +78,8 @@ static celspan_status create_object(cs_layout *layout, size_t first, size_t coun
   cs_outline_init(&outline);
   if (layout->desc->size > 0)
     status = append_glyphs(layout, first, count, &outline);
+  if (status == CELSPAN_OK)
+    status = fit_texture(layout, &data->texture);
   return cs_primitive_data_complete(layout->context, data, &outline, status, out);
 }
 

@@ -217,6 +217,7 @@ celspan_status cs_typeset_make(cs_layout *layout, celspan_context *context, cons
 
 void cs_typeset_finish(cs_layout *layout) {
   cs_memory *memory = layout->context->memory;
+  celspan_texture_unref(layout->fitted);
   for (size_t i = 0; i < layout->font_count; i++)
     cs_font_release(layout->context, layout->fonts[i]);
   cs_mem_free(memory, layout->characters, layout->room * sizeof *layout->characters);

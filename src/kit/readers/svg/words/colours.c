@@ -71,6 +71,14 @@ static const struct named_colour {
   uint32_t rgb;
 } named_colours[] = {COLOUR_LIST(COLOUR)};
 
+#undef COLOUR
+#define COLOUR(name, rgb) #name
+const char *const *cs_svg_colour_names(size_t *count) {
+  static const char *const names[] = {COLOUR_LIST(COLOUR)};
+  *count = sizeof names / sizeof *names;
+  return names;
+}
+
 static cs_svg_colour of_bytes(unsigned r, unsigned g, unsigned b, unsigned a) {
   return (cs_svg_colour){{r / 255.0, g / 255.0, b / 255.0}, a / 255.0};
 }

@@ -16,5 +16,8 @@ bool cs_svg_take_colour(const char **text, cs_svg_colour *out);
  * channel by channel. */
 bool cs_svg_take_space_colour(const char **text, cs_svg_colour *out);
 
+/* The names of colours, sorted. */
+const char *const *cs_svg_colour_names(size_t *count);
+
 /* The colour of a hue in degrees; its alpha does not change. */
 void cs_svg_colour_of_hue(double hue, double saturation, double lightness, cs_svg_colour *out);
