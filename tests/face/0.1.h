@@ -74,6 +74,13 @@ celspan_status celspan_texture_create_focal( celspan_context *context, celspan_p
   **out);
 celspan_status celspan_texture_create_conic(celspan_context *context, celspan_point centre, double
   radians, const celspan_stop *stops, size_t stop_count, celspan_texture **out);
+typedef enum celspan_gradient_fit { CELSPAN_GRADIENT_SIDE = 0, CELSPAN_GRADIENT_ANGLE,
+  CELSPAN_GRADIENT_ELLIPSE } celspan_gradient_fit;
+typedef struct celspan_fitted_desc { size_t struct_size; celspan_gradient_fit fit; int to_x, to_y;
+  double degrees; const celspan_stop *stops; size_t stop_count; } celspan_fitted_desc;
+void celspan_fitted_desc_default(celspan_fitted_desc *out, size_t struct_size);
+celspan_status celspan_texture_create_fitted( celspan_context *context, const celspan_fitted_desc
+  *desc, celspan_texture **out);
 typedef enum celspan_noise_kind { CELSPAN_NOISE_PERLIN = 0, CELSPAN_NOISE_VALUE,
   CELSPAN_NOISE_FRACTAL, CELSPAN_NOISE_TURBULENCE, CELSPAN_NOISE_CELLS, CELSPAN_NOISE_WHITE }
   celspan_noise_kind;

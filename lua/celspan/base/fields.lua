@@ -146,6 +146,8 @@ end
 function fields.reads(noun, methods, optional)
   return function(value, name)
     local found = methods[name]
+    local own = found == nil and type(name) == "string" and native.synonym(name, true)
+    if own and (methods[own] or rawget(value, own)) then return methods[own] or value[own] end
     if found ~= nil or type(name) ~= "string" or optional and optional[name] then return found end
     local names = {}
     for _, list in ipairs { methods, value, optional or {} } do
@@ -161,6 +163,9 @@ end
 function fields.class(name, noun, optional)
   local class = { __name = name }
   class.__index = fields.reads(noun, class, optional)
+  function class.__call()
+    native.refuse(noun .. " is no function" .. (class.at and ": write value:at(...)" or ""))
+  end
   return class
 end
 
@@ -210,11 +215,32 @@ local function is_right(given, known)
   return true
 end
 
---- Checks the fields of a table. known: name -> the required type(), or "any". known[1] must be set
---- if the table may contain a list.
+--- A copy of a table in which fields have celspan's spelling; the table, if all have it already.
+local function settled(noun, given, known)
+  local copy = given
+  for name, value in next, given do
+    local own = type(name) == "string" and not known[name] and native.synonym(name, true)
+    if own and known[own] then
+      if rawget(given, own) ~= nil then
+        native.refuse(("%s: '%s' and '%s' are one field: give one of them"):format(noun, name, own))
+      end
+      if copy == given then
+        copy = {}
+        for key, one in next, given do copy[key] = one end
+      end
+      copy[name], copy[own] = nil, value
+    end
+  end
+  return copy
+end
+
+--- Checks the fields of a table, and returns it, or a copy if fields of it are spelled in another
+--- way. known: name -> the required type(), or "any". known[1] must be set if the table may contain
+--- a list.
 function fields.check(noun, given, known)
   fields.expect_kind(type(given) == "table", given, "%s: takes a table", noun)
-  if is_right(given, known) then return end
+  if is_right(given, known) then return given end
+  given = settled(noun, given, known)
   local names = {}
   for name in pairs(known) do
     if type(name) == "string" then names[#names + 1] = name end
@@ -236,6 +262,7 @@ function fields.check(noun, given, known)
     fields.expect(wanted ~= "number" or value == nil or fields.is_finite(value), value,
       "%s: field '%s' must be a finite number", noun, name)
   end
+  return given
 end
 
 return fields

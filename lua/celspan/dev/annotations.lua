@@ -18,15 +18,17 @@ return [==[
 --- clockwise. Colours are linear light, but strings are sRGB. It is one file because editors load a
 --- library as a whole.
 
----@alias celspan.colour celspan.paint|string A paint, or "#rgb", "#rgba", "#rrggbb", "#rrggbbaa" (sRGB-coded)
----@alias celspan.surface celspan.colour|celspan.texture The texture of a primitive
+---@alias celspan.colour celspan.paint|string A paint, or "#rgb", "#rgba", "#rrggbb", "#rrggbbaa" (sRGB-coded), a name of CSS such as "tomato", or "transparent"
+---@alias celspan.surface celspan.colour|celspan.texture What fills a primitive
 ---@alias celspan.light number[]|string|celspan.paint|celspan.texture|celspan.light_shape {r, g, b}, {r, g, b, a} or "#rrggbb"; an omitted a is 1; or a light with a shape
 ---@alias celspan.shape celspan.object|celspan.rostrum A part of a cel or a boolean: an object, or a rostrum with a size
 ---@alias celspan.point number[] {x, y}
+---@alias celspan.place celspan.point|"centre"|"top"|"bottom"|"left"|"right"|"top left"|"top right"|"bottom left"|"bottom right"|"pivot" A point, a place of the bounds, or the point that `with { pivot = }` gave
 ---@alias celspan.rule "nonzero"|"evenodd" How self-crossing outlines are filled
 ---@alias celspan.mode "normal"|"multiply"|"screen"|"overlay"|"darken"|"lighten"|"color-dodge"|"color-burn"|"hard-light"|"soft-light"|"difference"|"exclusion"|"hue"|"saturation"|"color"|"luminosity"|"add"|"linear-dodge"|"soft-light-photoshop"|"linear-burn"|"vivid-light"|"linear-light"|"pin-light"|"hard-mix"|"subtract"|"divide"|"darker-color"|"lighter-color" How a source is combined with its backdrop
 ---@alias celspan.antialias "area"|"none"|celspan.filter The exact mean over each pixel, pixel centres, or a kernel
 ---@alias celspan.exposures celspan.rostrum|table[] A rostrum, or {{rostrum, weight}, ...}: light adds
+---@alias celspan.shown celspan.exposures|celspan.object|celspan.cel|table What a frame shows: exposures, an object, a cel, or a list of objects, cels, lists, nil and false, which may have the named fields of a rostrum
 
 --- x, y of the beginning, and six numbers for each piece: two control points and its end.
 ---@class celspan.contour: number[]
@@ -166,6 +168,7 @@ function texture:with(changes) end
 --- The methods of objects and cels. Each method returns a new value.
 ---@class celspan.placed: celspan.nameable
 ---@field mode celspan.mode
+---@field pivot? celspan.point
 local placed = {}
 
 --- Moves it.
@@ -174,28 +177,35 @@ local placed = {}
 ---@param dy number
 function placed:translate(dx, dy) end
 
---- Enlarges it, about the origin or a fixed centre.
+--- Enlarges it, about the origin or a place that stays.
 ---@own celspan.placed
 ---@param sx number
----@param sy? number Default sx
----@param cx? number
+---@param sy? number|celspan.place Default sx; a place: sx is for both
+---@param cx? number|celspan.place
 ---@param cy? number
 function placed:scale(sx, sy, cx, cy) end
 
---- Turns clockwise on screen, about the origin or a centre.
+--- Turns clockwise on screen, about the origin or a place.
 ---@own celspan.placed
 ---@param degrees number
----@param cx? number
+---@param cx? number|celspan.place
 ---@param cy? number
 function placed:rotate(degrees, cx, cy) end
 
---- Slants it, about the origin or a centre.
+--- Slants it, about the origin or a place.
 ---@own celspan.placed
 ---@param degrees_x number
 ---@param degrees_y number
----@param cx? number
+---@param cx? number|celspan.place
 ---@param cy? number
 function placed:skew(degrees_x, degrees_y, cx, cy) end
+
+--- Moves a place of it, by default its centre, to a point.
+---@own celspan.placed
+---@param x number
+---@param y number
+---@param place? celspan.place
+function placed:move_to(x, y, place) end
 
 --- A 3x3 matrix row by row, for column vectors.
 ---@own celspan.placed
@@ -358,6 +368,7 @@ function text:metrics() end
 ---@field x number Its left end
 ---@field y number Its baseline
 ---@field advance number Its width, without tracking
+---@field middle number x + advance / 2
 ---@field text string
 ---@field line integer From 1
 
@@ -461,6 +472,14 @@ local frame = {}
 ---@return integer
 function frame:on(n) end
 
+--- The time in seconds held for two frames: animation on twos.
+---@return number
+function frame:twos() end
+
+--- The time in seconds held for three frames.
+---@return number
+function frame:threes() end
+
 --- A random number that depends only on the film, the frame and the label: 0 <= x < 1, or 1..m, or
 --- m..n. Of the film, title and size count.
 ---@param label string|number
@@ -524,7 +543,7 @@ function raster:write(path, options) end
 ---@noun pixels.options
 
 --- Renders one frame to memory.
----@param what celspan.film|celspan.exposures
+---@param what celspan.film|celspan.shown
 ---@param options? celspan.pixels.options
 ---@return celspan.pixels.image? image
 ---@return string? message
@@ -562,7 +581,7 @@ function plane:write(path) end
 ---@noun plane.options
 
 --- Reduces one frame to a plane.
----@param what celspan.film|celspan.exposures
+---@param what celspan.film|celspan.shown
 ---@param options? celspan.plane.options
 ---@return celspan.plane? plane
 ---@return string? message
@@ -584,7 +603,7 @@ function celspan.plane_read(path) end
 ---@noun spans.options
 
 --- Rows of spans: rows[y] is a list.
----@param what celspan.film|celspan.exposures
+---@param what celspan.film|celspan.shown
 ---@param options? celspan.spans.options
 ---@return table<integer, celspan.span[]>? rows
 ---@return string? message
@@ -593,17 +612,26 @@ function celspan.spans(what, options) end
 ---@noun probe.options
 
 --- The colour of one point of the film by direct evaluation: no sweep, no antialiasing, no defocus.
----@param what celspan.film|celspan.exposures
+---@param what celspan.film|celspan.shown
 ---@param x number
 ---@param y number
 ---@param options? celspan.probe.options
 ---@return number? r, number|string g, number b, number a
 function celspan.probe(what, x, y, options) end
 
+--- The globals with celspan's names beside them, for a file in a Lua of one's own: local _ENV =
+--- celspan.names(_ENV). A global that the file assigns is not looked up. Scripts that celspan runs
+--- have these names already.
+---@param globals table
+---@return table
+function celspan.names(globals) end
+
 --- Random numbers from a seed: random(label [, m, n]) depends only on the seed and the label.
 ---@param seed string|number
 ---@return fun(label: string|number, m?: integer, n?: integer): number
 function celspan.random(seed) end
+
+---@globals
 
 return celspan
 ]==]

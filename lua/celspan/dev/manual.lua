@@ -114,6 +114,16 @@ local function from_module(name, module, own)
   return ("%sfunction celspan.%s%s end\n"):format(above, name, arguments)
 end
 
+--- Lines that give the globals of scripts their types.
+local function globals()
+  local lines, module_of = require "celspan.names".list()
+  for i, name in ipairs(lines) do
+    lines[i] = name .. " = " .. (module_of[name] and ("require %q"):format(module_of[name])
+      or "celspan." .. name)
+  end
+  return table.concat(lines, "\n")
+end
+
 --- The text of celspan.d.lua.
 function manual.annotations()
   local celspan, nouns, by_line = require "celspan", native.nouns(), {}
@@ -124,26 +134,29 @@ function manual.annotations()
   text = text:gsub("%-%-%-@written ([%w_]+): ([%w_]+)%.([%w_]+)", from_module)
   text = text:gsub("\n\n\n", "\n\n"):gsub("%-%-%-@own (%S+)\n(.-)function ",
     "---@generic T: %1\n---@param self T\n%2---@return T\nfunction ")
-  return (text:gsub("%-%-%-@noun ([%w_.]+):? ?([%w_.]*)", function(name, parent)
+  text = text:gsub("%-%-%-@noun ([%w_.]+):? ?([%w_.]*)", function(name, parent)
     local noun = assert(by_line[name], name)
     local has_methods = text:find("function " .. name .. ":", 1, true)
     return expand(noun, parent ~= "" and parent or nil, has_methods, rawget(celspan, name))
-  end))
+  end)
+  return (text:gsub("%-%-%-@globals", globals()))
 end
 
 -- ---------------------------------------------------------------- reading annotations
 
 --- The type at the beginning of a text, and the comment after it: a type ends at a space outside of
---- brackets that does not follow a comma or a colon.
+--- brackets and quotes that does not follow a comma or a colon.
 local function split_type(text)
   local plain, rest = text:match "^([%w_.|?]+) (.*)$" -- most are
   if plain then return plain, rest end
-  local depth, at = 0, 1
+  local depth, at, quoted = 0, 1, false
   while at <= #text do
     local sign = text:sub(at, at)
     if sign:find "[%(%[{<]" then depth = depth + 1 end
     if sign:find "[%)%]}>]" then depth = depth - 1 end
-    if sign == " " and depth == 0 and not text:sub(at - 1, at - 1):find "[,:]" then break end
+    if sign == "\"" then quoted = not quoted end
+    local is_inside = quoted or depth > 0 or text:sub(at - 1, at - 1):find "[,:]"
+    if sign == " " and not is_inside then break end
     at = at + 1
   end
   return text:sub(1, at - 1), text:sub(at + 1)

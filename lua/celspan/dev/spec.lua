@@ -18,6 +18,7 @@ local celspan = require "celspan"
 local native = require "celspan.native"
 local fields = require "celspan.fields"
 local ordered = require "celspan.ordered"
+local shown = require "celspan.shown"
 
 local spec = {}
 
@@ -179,14 +180,7 @@ end
 
 --- The exposures of a frame, each {rostrum, weight}.
 local function exposures_of(subject)
-  local made = subject.film:at(subject.frame)
-  if getmetatable(made) == rostrum_metatable then return { { made, 1 } } end
-  local list = {}
-  for i, exposure in ipairs(made) do
-    local is_bare = getmetatable(exposure) == rostrum_metatable
-    list[i] = is_bare and { exposure, 1 } or { exposure[1], exposure[2] or 1 }
-  end
-  return list
+  return shown.list("film:at", subject.film:at(subject.frame))
 end
 
 --- The cels of a rostrum for which `keeps` is true, and all names.
@@ -268,11 +262,11 @@ local function write_actual(path, image)
 end
 
 local function write_difference(path, found, image)
-  local shown, size = beside(path, "difference"), { image.width, image.height }
+  local seen, size = beside(path, "difference"), { image.width, image.height }
   local drawn = celspan.image { pixels = found.picture, size = size, x = 0, y = 0 }
   local rostrum = celspan.rostrum { antialias = "none", celspan.cel { drawn } }
-  need(celspan.render(rostrum, shown, { size = size }), ("%s cannot be written"):format(shown))
-  return ("  where          %s"):format(shown)
+  need(celspan.render(rostrum, seen, { size = size }), ("%s cannot be written"):format(seen))
+  return ("  where          %s"):format(seen)
 end
 
 --- The absolute path, because a relative one would be searched for beside the Lua file that names

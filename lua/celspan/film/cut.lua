@@ -14,31 +14,22 @@ local native = require "celspan.native"
 local ease = require "celspan.ease"
 local edges = require "celspan.edges"
 local fields = require "celspan.fields"
+local shown = require "celspan.shown"
 local keys = require "celspan.keys"
 local ordered = require "celspan.ordered"
 local shots_of = require "celspan.shots"
 
 local cut = {}
-local rostrum_metatable = getmetatable(celspan.rostrum {})
-
---- The weight of an exposure, checked in the same way as by the film.
-local function weight_of(i, exposure)
-  fields.expect_kind(type(exposure) == "table", exposure,
-    "cut: exposure %d must be {rostrum, weight}", i)
-  fields.expect_kind(getmetatable(exposure[1]) == rostrum_metatable, exposure[1],
-    "cut: exposure %d must show a rostrum", i)
-  local weight = exposure[2] == nil and 1 or exposure[2]
-  fields.expect(fields.is_finite(weight) and weight >= 0, weight,
-    "cut: exposure %d: its weight must be a finite number of 0 or more", i)
-  return weight
-end
 
 --- The result of a frame function, or of the function of cut.with, as a list of { rostrum, weight
 --- }.
 local function exposures_of(result)
-  if type(result) ~= "table" then result = { { result } } end
-  local list = {}
-  for i, exposure in ipairs(result) do list[i] = { exposure[1], weight_of(i, exposure) } end
+  local list = shown.list("cut: what a transition shows", result)
+  for i, exposure in ipairs(list) do
+    local weight = exposure[2]
+    fields.expect(fields.is_finite(weight) and weight >= 0, weight,
+      "cut: exposure %d: its weight must be a finite number of 0 or more", i)
+  end
   return list
 end
 
@@ -114,13 +105,14 @@ end
 
 --- Checks the settings of a transition: named fields and their ranges { least, most }.
 local function settings_of(noun, settings, known, ranges)
-  fields.check("cut: " .. noun, settings, known)
+  settings = fields.check("cut: " .. noun, settings, known)
   for name, range in pairs(ranges) do
     local value = settings[name]
     fields.expect(not value or value >= range[1] and value <= range[2], value,
       "cut: %s: field '%s' must be %s..%s", noun, name, fields.shown(range[1]),
       fields.shown(range[2]))
   end
+  return settings
 end
 
 --- An edge moves over the first shot; the second shot is behind the edge. angle: the direction of
@@ -148,8 +140,7 @@ end
 ---@param settings? { centre?: celspan.point, softness?: number }
 ---@return fun(seconds: number, curve?: celspan.ease): celspan.cut.transition
 function cut.iris(settings)
-  settings = settings or {}
-  settings_of("iris", settings, { centre = "table", softness = "number" },
+  settings = settings_of("iris", settings or {}, { centre = "table", softness = "number" },
     { softness = { 0, 1 } })
   if settings.centre then
     fields.numbers("cut", "iris: centre[%d]", settings.centre, 2, "a point {x, y}")
@@ -367,7 +358,7 @@ end
 --- The exposures with cels over them: one, or a list of them.
 local function lay_over(exposures, cels, f, size)
   local list, total = {}, 0
-  if type(cels) ~= "table" then cels = { cels } end
+  cels = shown.cels("cut: over", cels)
   for i, exposure in ipairs(exposures_of(exposures)) do
     local shot = exposure[1]
     total = total + exposure[2]
@@ -474,7 +465,7 @@ end
 ---@field sound? string|celspan.film.sound|celspan.film.sound[] In addition to the sounds of the films
 ---@field marks? table<string, integer|integer[]> In addition to those of the films
 ---@field captions? string|celspan.captions In addition to those of the films
----@field over? fun(f: celspan.film.frame): celspan.cel|celspan.cel[]|nil What is over all shots
+---@field over? fun(f: celspan.film.frame): celspan.shown|nil What is over all shots
 
 ---@class celspan.cut
 ---@overload fun(parts: celspan.cut.parts): celspan.film

@@ -4,6 +4,7 @@
 -- 2 s - 1 to a code, so a source s = 1/2 + amount n / (2 DEVIATION) has the deviation of `amount`.
 local celspan = require "celspan"
 local native = require "celspan.native"
+local shown = require "celspan.shown"
 
 local grain = {}
 
@@ -51,12 +52,7 @@ end
 
 --- The exposures of a frame with the grain of its film.
 function grain.of_film(exposures, film, frame)
-  if type(exposures) ~= "table" then return of_rostrum(exposures, film, frame) end
-  local list = {}
-  for i, exposure in ipairs(exposures) do
-    list[i] = { of_rostrum(exposure[1], film, frame), exposure[2] }
-  end
-  return list
+  return shown.each(exposures, of_rostrum, film, frame)
 end
 
 return grain

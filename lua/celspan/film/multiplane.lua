@@ -19,10 +19,11 @@
 local celspan = require "celspan"
 local native = require "celspan.native"
 local fields = require "celspan.fields"
+local shown = require "celspan.shown"
 local scenes = require "celspan.scenes"
 
 local known = { "planes", film = "table", camera = "table", focal = "number", focus = "number",
-                focus_on = "number", aperture = "number", fit = "boolean", over = "table",
+                focus_on = "number", aperture = "number", fit = "boolean", over = "any",
                 front = "any", back = "any", brightness = "number", antialias = "any" }
 local known_plane = { "cel", z = "number", fit = "boolean" }
 local known_camera = { x = "number", y = "number", z = "number" }
@@ -58,8 +59,6 @@ local function see(planes, lens)
   return cels
 end
 
-local cel_metatable = getmetatable(celspan.cel {})
-
 local function check(scene)
   if not scene.film then
     native.refuse("multiplane: field 'film' must be {width, height}, the size of the film, got nil")
@@ -74,20 +73,32 @@ local function check(scene)
   fields.must((scene.focal or 1) > 0, "multiplane: field 'focal'", "above 0", scene.focal)
   for i = 1, rawlen(scene) do
     local plane = scene[i]
-    local cel = type(plane) == "table" and plane[1] or nil
-    if getmetatable(cel) ~= cel_metatable then
+    if type(plane) ~= "table" or not plane[1] then
       native.refuse(("multiplane: plane %d must be {cel, z = depth}, got %s"):format(i,
-        type(plane) == "table" and ("{%s}"):format(fields.kind(cel)) or fields.kind(plane)))
+        type(plane) == "table" and ("{%s}"):format(fields.kind(plane[1])) or fields.kind(plane)))
     end
     fields.check("multiplane: plane " .. i, plane, known_plane)
+    if type(plane[2]) == "number" then
+      native.refuse(("multiplane: plane %d: write z = %s for its depth"):format(i, plane[2]))
+    end
     if fits(plane, scene) and (plane.z or 0) <= -(scene.focal or 1000) then
       native.refuse(("multiplane: plane %d lies at or behind the camera at rest (z = %s,"
         .. " focal = %s); it cannot fill the film there"):format(i, plane.z, scene.focal or 1000))
     end
   end
-  for i = 1, #(scene.over or {}) do
-    fields.expect_kind(getmetatable(scene.over[i]) == cel_metatable, scene.over[i],
-      "multiplane: over[%d] must be a cel", i)
+end
+
+--- The content of a plane: { a, z = 1 }, { { a, b }, z = 1 } or { a, b, z = 1 }.
+local function content(plane)
+  local count = rawlen(plane)
+  return count > 1 and table.move(plane, 1, count, 1, {}) or plane[1]
+end
+
+--- Adds planes with what is shown there: an object, a cel or a list of them.
+local function add_planes(planes, name, value, z, scale, lens)
+  for _, cel in ipairs(shown.cels("multiplane: " .. name, value)) do
+    if scale then cel = cel:scale(scale, nil, lens.cx, lens.cy) end
+    planes[#planes + 1] = { cel, z = z, place = #planes }
   end
 end
 
@@ -100,15 +111,15 @@ local function multiplane(_, scene)
                  aperture = scene.aperture or 0, cx = scene.film[1] / 2, cy = scene.film[2] / 2 }
   lens.focus = scene.focus_on and focal + scene.focus_on - lens.z or scene.focus or focal
   for i = 1, rawlen(scene) do
-    local cel, z = scene[i][1], scene[i].z or 0
-    if fits(scene[i], scene) then cel = cel:scale((focal + z) / focal, nil, lens.cx, lens.cy) end
-    planes[i] = { cel, z = z, place = i }
+    local plane, z = scene[i], scene[i].z or 0
+    local scale = fits(plane, scene) and (focal + z) / focal
+    add_planes(planes, "plane " .. i, content(plane), z, scale, lens)
   end
   table.sort(planes, function(a, b)
     if a.z ~= b.z then return a.z > b.z end
     return a.place < b.place
   end)
-  for _, cel in ipairs(scene.over or {}) do planes[#planes + 1] = { cel } end
+  add_planes(planes, "over", scene.over)
   local cels = see(planes, lens)
   cels.front, cels.back = scene.front, scene.back
   cels.brightness, cels.antialias = scene.brightness, scene.antialias

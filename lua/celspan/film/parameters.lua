@@ -8,7 +8,6 @@
 -- } for each value or file; `source` is the beginning of messages. Two fields are answers to the
 -- host:
 -- `declared`, and `refused`, the sentence about a wrong setting.
-local celspan = require "celspan"
 local native = require "celspan.native"
 local ease = require "celspan.ease"
 local fields = require "celspan.fields"
@@ -97,7 +96,7 @@ local kinds = {
   colour = {
     type = "string",
     allowed = function() return 'a colour, such as "#f80" or "#ff8800"' end,
-    read = function(_, text) return pcall(celspan.rgb, text) and text or nil end,
+    read = function(_, text) return native.hex(text) end,
   },
 }
 
@@ -115,7 +114,8 @@ end
 
 --- The kind of a table, and its default.
 local function kind_of_table(name, given)
-  if given.colour ~= nil then return "colour", given.colour end
+  local colour = given.colour or given.color
+  if colour ~= nil then return "colour", colour end
   if given.ease ~= nil then return "ease", given.ease end
   if given.point ~= nil then
     if given.point ~= true then
@@ -133,8 +133,8 @@ local function kind_of_table(name, given)
 end
 
 local known = { number = { 1, min = 1, max = 1 }, boolean = { 1 }, text = { 1 },
-                colour = { colour = 1 }, file = { file = 1 }, choice = {}, ease = { ease = 1 },
-                point = { 1, 1, point = 1 } }
+                colour = { colour = 1, color = 1 }, file = { file = 1 }, choice = {},
+                ease = { ease = 1 }, point = { 1, 1, point = 1 } }
 local common = { about = "a string", group = "a string" } -- fields of all kinds
 
 --- "; did you mean 'min'?", or nothing if no field is near.

@@ -1,8 +1,8 @@
 --- The shots of the films that celspan.cut made, for `celspan watch`, which shows them.
-local celspan = require "celspan"
 local fields = require "celspan.fields"
 local json = require "celspan.json"
 local scenes = require "celspan.scenes"
+local shown = require "celspan.shown"
 
 local shots = {}
 
@@ -10,7 +10,6 @@ local MOST = 100 -- films that are kept
 local films = {} -- the last one made last: { frames =, shots =, into = }
 local is_marking = false
 local lone -- the shot that is seen alone in its transitions; nil: none is
-local rostrum_metatable = getmetatable(celspan.rostrum {})
 
 --- Keeps the shots of a film. Returns the film.
 function shots.keep(film, list, segments)
@@ -33,18 +32,7 @@ end
 --- What a shot shows, a rostrum or a list of exposures. If frames are marked, the rostra have the
 --- name of the shot.
 function shots.marked(result, shot)
-  local function named(value)
-    return getmetatable(value) == rostrum_metatable and scenes.named(value, shot.label)
-      or value
-  end
-  if not is_marking then return result end
-  if type(result) ~= "table" then return named(result) end
-  local list = {}
-  for i, exposure in ipairs(result) do
-    local is_pair = type(exposure) == "table"
-    list[i] = is_pair and { named(exposure[1]), exposure[2] } or named(exposure)
-  end
-  return list
+  return is_marking and shown.each(result, scenes.named, shot.label) or result
 end
 
 --- The film with this number of frames that was cut last; nil: no such film was cut.

@@ -8,6 +8,7 @@
 -- samples are exposed with equal weights that add up to 1.
 local native = require "celspan.native"
 local fields = require "celspan.fields"
+local shown = require "celspan.shown"
 
 local known = { angle = "number", samples = "number", frame = "function" }
 
@@ -26,17 +27,6 @@ local function moved(f, share)
   })
 end
 
---- Adds the result of a frame function, weighted.
-local function expose(exposures, result, weight)
-  if type(result) ~= "table" then
-    exposures[#exposures + 1] = { result, weight }
-    return
-  end
-  for i = 1, #result do
-    exposures[#exposures + 1] = { result[i][1], (result[i][2] or 1) * weight }
-  end
-end
-
 local function shutter(_, settings)
   fields.check("shutter", settings, known)
   local angle, samples, frame = settings.angle or 180, settings.samples or 8, settings.frame
@@ -46,7 +36,10 @@ local function shutter(_, settings)
   return function(f)
     local exposures = {}
     for k = 1, samples do
-      expose(exposures, frame(moved(f, (k - 0.5) / samples * angle / 360)), 1 / samples)
+      local made = frame(moved(f, (k - 0.5) / samples * angle / 360))
+      for _, exposure in ipairs(shown.list("shutter: the frame function's result", made)) do
+        exposures[#exposures + 1] = { exposure[1], exposure[2] * (1 / samples) }
+      end
     end
     return exposures
   end

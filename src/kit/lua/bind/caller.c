@@ -90,12 +90,19 @@ int cs_caller_error(lua_State *L, const char *format, ...) {
 
 void cs_caller_push_position(lua_State *L, lua_CFunction last) {
   lua_Debug info;
-  for (int level = 1; get(L, level, &info) && !is_function(L, &info, last); level++)
+  int level = 1;
+  for (; get(L, level, &info) && !is_function(L, &info, last); level++)
     if (info.currentline > 0 && !is_own(&info)) {
       push_position(L, &info);
       return;
     }
-  lua_pushliteral(L, "");
+  bool is_last = get(L, level, &info) && lua_getlocal(L, &info, 1);
+  if (is_last && lua_isfunction(L, -1))
+    cs_caller_push_function(L, -1);
+  else
+    lua_pushliteral(L, "");
+  if (is_last)
+    lua_remove(L, -2);
 }
 
 /* ---------------------------------------------------------------- files */

@@ -24,7 +24,8 @@ int cs_caller_enter(lua_State *L);
 int cs_caller_error(lua_State *L, const char *format, ...);
 
 /* Pushes "hand.lua:12: " for the nearest function below `last` that has lines and is not celspan's
- * own; "" when there is none. */
+ * own. When there is none, the same for the line where the first argument of `last` begins, if that
+ * is a function; else "". */
 void cs_caller_push_position(lua_State *L, lua_CFunction last);
 /* Pushes the same for the line where the function at index begins, for errors in its result, which
  * has no line of its own. */

@@ -2,6 +2,7 @@
 
 #include <lauxlib.h>
 
+#include "lua/bind/anchor.h"
 #include "lua/bind/caller.h"
 #include "lua/bind/form.h"
 #include "lua/bind/host.h"
@@ -90,6 +91,10 @@ void cs_construct_value(lua_State *L, const cs_noun *noun, int fields) {
   make(L, noun, fields, NULL);
 }
 
+void cs_construct_like(lua_State *L, const cs_noun *noun, int fields, const cs_userdata *like) {
+  make(L, noun, fields, like);
+}
+
 static int constructor(lua_State *L) {
   cs_construct_value(L, lua_touserdata(L, lua_upvalueindex(1)), 1);
   return 1;
@@ -151,7 +156,7 @@ static void reblend(lua_State *L, const cs_userdata *from, cs_userdata *value) {
 }
 
 /* Applies to the value the transforms and fades that `from` got after its constructor. */
-static void reapply(lua_State *L, const cs_userdata *from, cs_userdata *value) {
+static void place_like(lua_State *L, const cs_userdata *from, cs_userdata *value) {
   const cs_kind *kind = value->noun->kind;
   celspan_context *context = cs_host_context(L);
   const cs_placement placement = cs_userdata_placement(from);
@@ -166,6 +171,41 @@ static void reapply(lua_State *L, const cs_userdata *from, cs_userdata *value) {
   kind->unref(value->handle);
   value->handle = changed;
   cs_userdata_place(value, &placement);
+  cs_anchor_move(value, &placement.matrix);
+}
+
+/* Pushes the value at 1 with the changes at 2. */
+static void push_changed(lua_State *L, const cs_userdata *self) {
+  const cs_noun *noun = self->noun;
+  cs_userdata_push_fields(L, 1);
+  const int fields = lua_gettop(L);
+  drop_other(L, noun, 2, fields);
+  if (noun->list == CS_LIST_ITEMS && lua_rawgeti(L, 2, 1) != LUA_TNIL)
+    clear_list(L, fields);
+  copy_into(L, 2, fields);
+  make(L, noun, fields, self);
+  place_like(L, self, lua_touserdata(L, -1));
+  if (noun->kind->transform)
+    cs_anchor_keep_pivot(self, lua_touserdata(L, -1));
+}
+
+/* Pushes the pivot of the changes at 2, and replaces them by changes without it; if the pivot is
+ * not among them, pushes nil. */
+static void take_pivot(lua_State *L) {
+  lua_pushliteral(L, "pivot");
+  if (lua_rawget(L, 2) == LUA_TNIL)
+    return;
+  lua_newtable(L);
+  copy_into(L, 2, lua_gettop(L));
+  drop(L, lua_gettop(L), "pivot");
+  lua_replace(L, 2);
+}
+
+static bool is_empty(lua_State *L, int table) {
+  lua_pushnil(L);
+  bool has_more = lua_next(L, table);
+  lua_pop(L, has_more ? 2 : 0);
+  return !has_more;
 }
 
 int cs_construct_with(lua_State *L) {
@@ -177,12 +217,15 @@ int cs_construct_with(lua_State *L) {
     return cs_caller_error(L, "%s: with takes a table of changes, got %s", noun->name,
                            cs_userdata_type(L, 2));
   lua_settop(L, 2);
-  cs_userdata_push_fields(L, 1);
-  drop_other(L, noun, 2, 3);
-  if (noun->list == CS_LIST_ITEMS && lua_rawgeti(L, 2, 1) != LUA_TNIL)
-    clear_list(L, 3);
-  copy_into(L, 2, 3);
-  make(L, noun, 3, self);
-  reapply(L, self, lua_touserdata(L, -1));
+  if (noun->kind->transform)
+    take_pivot(L);
+  cs_form_settle(L, noun, 2);
+  const bool has_pivot = lua_gettop(L) == 3 && !lua_isnil(L, 3);
+  if (has_pivot && is_empty(L, 2))
+    lua_pushvalue(L, 1);
+  else
+    push_changed(L, self);
+  if (has_pivot)
+    cs_anchor_set_pivot(L, 3);
   return 1;
 }

@@ -9,6 +9,9 @@
 
 /* Checks, makes and pushes a value from the table at `fields`. */
 void cs_construct_value(lua_State *L, const cs_noun *noun, int fields);
+/* The same, with the name and the line of another value. */
+void cs_construct_like(lua_State *L, const cs_noun *noun, int fields,
+                       const struct cs_userdata *like);
 /* Pushes the fields that a value of the noun would keep if it were made from the table at
  * `fields`. */
 void cs_construct_push_fields(lua_State *L, const cs_noun *noun, int fields);

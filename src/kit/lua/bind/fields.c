@@ -115,12 +115,12 @@ static _Noreturn void fail_word(const cs_form *form, const char *name, const cha
 
 int cs_fields_word(const cs_form *form, const char *name, const char *const *words) {
   const char *word = lua_type(form->L, -1) == LUA_TSTRING ? lua_tostring(form->L, -1) : "";
-  int place = 0;
-  while (words[place] && strcmp(words[place], word) != 0)
-    place++;
-  if (!words[place])
-    fail_word(form, name, words);
-  return place;
+  char out[CS_SUGGEST_SIZE];
+  for (const char *own = word; own; own = own == word ? cs_suggest_own(word, false, out) : NULL)
+    for (int place = 0; words[place]; place++)
+      if (strcmp(words[place], own) == 0)
+        return place;
+  fail_word(form, name, words);
 }
 
 static const char *text_of(const cs_form *form, const cs_field *field) {

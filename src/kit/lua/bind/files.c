@@ -63,3 +63,12 @@ const char *cs_files_find(lua_State *L, const char *name, const char **tried) {
     lua_remove(L, -3);
   return path;
 }
+
+bool cs_files_is_font(const char *path) {
+  static const char *const endings[] = {".ttf", ".otf", ".ttc", ".otc"};
+  const char *dot = strrchr(path, '.');
+  bool found = false;
+  for (size_t i = 0; dot && i < sizeof endings / sizeof *endings; i++)
+    found |= strcmp(dot, endings[i]) == 0;
+  return found;
+}

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <lua.h>
+#include <stdbool.h>
 
 /* The name of a file at an index. Raises if it is no text, or has a zero byte, where C would cut
  * it: another file would be read. */
@@ -20,3 +21,5 @@ const char *cs_files_find_from(lua_State *L, const char *folder, const char *nam
                                const char **tried);
 /* The same, beside the nearest caller's file. */
 const char *cs_files_find(lua_State *L, const char *name, const char **tried);
+/* Whether a name ends as those of fonts. */
+bool cs_files_is_font(const char *path);

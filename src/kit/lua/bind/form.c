@@ -2,6 +2,7 @@
 
 #include <math.h>
 #include <stdarg.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "inside/number.h"
@@ -9,8 +10,10 @@
 #include "lua/bind/host.h"
 #include "lua/bind/list.h"
 #include "lua/bind/numbers.h"
+#include "lua/bind/suggest.h"
 #include "lua/bind/unknown.h"
 #include "lua/bind/userdata.h"
+#include "readers/svg/words/colours.h"
 
 _Noreturn void cs_form_fail(const cs_form *form, const char *format, ...) {
   va_list arguments;
@@ -37,14 +40,23 @@ static bool is_known(const cs_noun *noun, const char *name) {
   return false;
 }
 
+/* celspan's name of a field that is spelled in another way; NULL: the noun has no such field. */
+static const char *own_name(const cs_noun *noun, const char *name, char out[CS_SUGGEST_SIZE]) {
+  const char *own = cs_suggest_own(name, true, out);
+  return own && is_known(noun, own) ? own : NULL;
+}
+
 static void check_position(const cs_form *form, lua_Integer place) {
-  if (form->noun->list == CS_LIST_NONE)
+  if (form->noun->list == CS_LIST_NONE && !form->noun->by_place)
     cs_form_fail(form, "takes named fields only, but was given a value at place %I",
                  (LUAI_UACINT)place);
   if (place < 1)
     cs_form_fail(form, "there is a value at place %I of the list, which begins at place 1",
                  (LUAI_UACINT)place);
 }
+
+/* How many values of the list are not fields. */
+static int count_kept(const cs_noun *noun) { return noun->list == CS_LIST_TUPLE ? 1 : 0; }
 
 /* A list with a missing value could end there in one process, and later in another one. */
 static void check_gaps(const cs_form *form) {
@@ -56,24 +68,102 @@ static void check_gaps(const cs_form *form) {
                  (LUAI_UACINT)length, (LUAI_UACINT)gap);
 }
 
+static const char *least(const char *a, const char *b) { return !a || strcmp(b, a) < 0 ? b : a; }
+
 /* Checks all names before any value, so that users first read about a mistyped name. Of several
- * unknown names, the first in sorted order is reported, whatever the order in the table. */
-static void check_names(const cs_form *form) {
+ * unknown names, the first in sorted order is reported, whatever the order in the table. Returns
+ * whether some fields are given by another name or by their place. */
+static bool check_names(const cs_form *form) {
   lua_State *L = form->L;
-  const char *unknown = NULL;
+  const cs_noun *noun = form->noun;
+  const char *unknown = NULL, *twice = NULL;
+  char out[CS_SUGGEST_SIZE];
+  bool has_others = false;
   for (lua_pushnil(L); lua_next(L, form->table); lua_pop(L, 1)) {
     if (lua_type(L, -2) == LUA_TSTRING) {
       const char *name = lua_tostring(L, -2);
-      if (!is_known(form->noun, name) && (!unknown || strcmp(name, unknown) < 0))
-        unknown = name;
-    } else if (lua_isinteger(L, -2))
+      if (is_known(noun, name))
+        continue;
+      const char *own = own_name(noun, name, out);
+      has_others |= own != NULL;
+      if (!own)
+        unknown = least(unknown, name);
+      else if (cs_form_has(form, own))
+        twice = least(twice, name);
+    } else if (lua_isinteger(L, -2)) {
       check_position(form, lua_tointeger(L, -2));
-    else
+      has_others |= noun->by_place && lua_tointeger(L, -2) > count_kept(noun);
+    } else
       cs_form_fail(form, "a field's name must be a word, got %s", cs_userdata_type(L, -2));
   }
   if (unknown)
-    cs_unknown_fail(L, form->noun, form->table, unknown);
-  check_gaps(form);
+    cs_unknown_fail(L, noun, form->table, unknown);
+  if (twice)
+    cs_form_fail(form, "'%s' and '%s' are one field: give one of them", twice,
+                 own_name(noun, twice, out));
+  return has_others;
+}
+
+/* Gives the copy of the table the fields that are in the list by their places. */
+static void place_values(const cs_form *form, int copy) {
+  lua_State *L = form->L;
+  int at = count_kept(form->noun) + 1, wanted = at - 1;
+  lua_Integer count = cs_list_length(L, form->table);
+  for (const cs_place *place = form->noun->by_place; place->field; place++)
+    wanted += place->count;
+  if (count != wanted)
+    cs_form_fail(form, "takes %s, got %I value%s", form->noun->places, (LUAI_UACINT)count,
+                 count == 1 ? "" : "s");
+  for (const cs_place *place = form->noun->by_place; place->field; place++) {
+    lua_pushstring(L, place->field);
+    lua_pushvalue(L, -1);
+    if (lua_rawget(L, copy) != LUA_TNIL)
+      cs_form_fail(form, "field '%s' is given by its place, too: give it once", place->field);
+    if (place->count > 1)
+      lua_createtable(L, place->count, 0);
+    for (int i = 1; i <= place->count; i++) {
+      lua_rawgeti(L, form->table, at++);
+      if (place->count > 1)
+        lua_rawseti(L, -2, i);
+    }
+    lua_remove(L, -2); /* nil */
+    lua_rawset(L, copy);
+  }
+}
+
+/* Replaces the table by a copy whose fields have celspan's names. */
+static void settle(cs_form *form) {
+  lua_State *L = form->L;
+  const cs_noun *noun = form->noun;
+  char own[CS_SUGGEST_SIZE];
+  bool has_places = false;
+  lua_createtable(L, count_kept(noun), 8);
+  int copy = lua_gettop(L);
+  for (lua_pushnil(L); lua_next(L, form->table); lua_pop(L, 1)) {
+    bool is_name = lua_type(L, -2) == LUA_TSTRING,
+         is_own = is_name && is_known(noun, lua_tostring(L, -2));
+    bool has_place = !is_name && noun->by_place && lua_tointeger(L, -2) > count_kept(noun);
+    has_places |= has_place;
+    form->has_others |= is_name && !is_own;
+    if (has_place)
+      continue;
+    if (is_name && !is_own)
+      lua_pushstring(L, own_name(noun, lua_tostring(L, -2), own));
+    else
+      lua_pushvalue(L, -2);
+    lua_pushvalue(L, -2);
+    lua_rawset(L, copy);
+  }
+  if (has_places)
+    place_values(form, copy);
+  lua_replace(L, form->table);
+}
+
+void cs_form_settle(lua_State *L, const cs_noun *noun, int index) {
+  cs_form form = {.L = L, .noun = noun, .table = lua_absindex(L, index)};
+  luaL_checkstack(L, 40, noun->name);
+  if (check_names(&form))
+    settle(&form);
 }
 
 static void check_either(const cs_form *form) {
@@ -86,12 +176,14 @@ static void check_either(const cs_form *form) {
 }
 
 cs_form cs_form_open(lua_State *L, const cs_noun *noun, int index) {
-  cs_form form = {L, noun, lua_absindex(L, index)};
+  cs_form form = {.L = L, .noun = noun, .table = lua_absindex(L, index)};
   luaL_checkstack(L, 40, noun->name);
   if (lua_type(L, index) != LUA_TTABLE)
     cs_form_fail(&form, "takes a table%s%s{ ... }, got %s", noun->kind ? ", " : " ",
                  noun->kind ? noun->name : "", cs_userdata_type(L, index));
-  check_names(&form);
+  if (check_names(&form))
+    settle(&form);
+  check_gaps(&form);
   check_either(&form);
   return form;
 }
@@ -111,18 +203,54 @@ bool cs_form_has(const cs_form *form, const char *name) {
 
 /* ---------------------------------------------------------------- colours */
 
+const char *cs_form_hex(const char *text, char out[CS_FORM_HEX]) {
+  celspan_paint paint;
+  cs_svg_colour named;
+  const char *end = text;
+  if (celspan_paint_parse(text, &paint))
+    return text;
+  if (strchr(text, '(') || !cs_svg_take_colour(&end, &named) || *end || end == text)
+    return NULL;
+  int codes[3];
+  for (int c = 0; c < 3; c++)
+    codes[c] = (int)lround(255 * named.rgb[c]);
+  snprintf(out, CS_FORM_HEX, named.alpha > 0 ? "#%02x%02x%02x" : "#0000", codes[0], codes[1],
+           codes[2]);
+  return out;
+}
+
+bool cs_form_colour(const char *text, celspan_paint *out) {
+  char code[CS_FORM_HEX];
+  const char *hex = text[0] == '#' ? text : cs_form_hex(text, code);
+  return hex && celspan_paint_parse(hex, out);
+}
+
+const char *cs_form_shown_colour(lua_State *L, int index) {
+  size_t count;
+  const char *const *names = cs_svg_colour_names(&count);
+  const char *word = lua_type(L, index) == LUA_TSTRING ? lua_tostring(L, index) : "";
+  const char *shown = cs_userdata_shown(L, index), *nearest = cs_suggest_name(word, names, count);
+  return nearest ? lua_pushfstring(L, "%s; did you mean \"%s\"?", shown, nearest) : shown;
+}
+
 /* Reads the value at index: a paint, or a string that names a colour. */
 static bool read_paint(lua_State *L, int index, celspan_paint *out) {
   if (lua_type(L, index) == LUA_TSTRING)
-    return celspan_paint_parse(lua_tostring(L, index), out);
+    return cs_form_colour(lua_tostring(L, index), out);
   const cs_userdata *value = cs_userdata_test(L, index, &cs_kind_paint);
   if (value)
     *out = *(const celspan_paint *)cs_userdata_own(value);
   return value != NULL;
 }
 
+/* A word of another field says what was meant, as in fill = "evenodd". */
 static _Noreturn void fail_colour(const cs_form *form, const char *subject, const char *wanted) {
-  cs_form_fail(form, "%s must be %s, got %s", subject, wanted, cs_userdata_shown(form->L, -1));
+  lua_State *L = form->L;
+  const char *word = lua_type(L, -1) == LUA_TSTRING ? lua_tostring(L, -1) : NULL;
+  const char *field = word ? cs_unknown_field_of(form->noun, word) : NULL;
+  cs_form_fail(form, "%s must be %s, got %s", subject, wanted,
+               field ? lua_pushfstring(L, "\"%s\"; write %s = \"%s\"", word, field, word)
+                     : cs_form_shown_colour(L, -1));
 }
 
 celspan_texture *cs_form_texture(const cs_form *form, const char *name) {
@@ -134,7 +262,9 @@ celspan_texture *cs_form_texture(const cs_form *form, const char *name) {
     return value->handle; /* the stack holds it */
   celspan_paint paint;
   if (!read_paint(L, -1, &paint)) {
-    const char *subject = lua_pushfstring(L, "field '%s'", name);
+    bool is_shown = form->has_others || lua_isnil(L, -1);
+    const char *subject =
+        lua_pushfstring(L, "field '%s'", is_shown ? cs_suggest_shown(name) : name);
     lua_insert(L, -2);
     fail_colour(form, subject, "a paint, a texture or a colour like \"#rrggbb\"");
   }

@@ -15,11 +15,16 @@
 typedef struct cs_form {
   lua_State *L;
   const cs_noun *noun;
-  int table; /* absolute index */
+  int table;       /* absolute index */
+  bool has_others; /* some fields were spelled in another way */
 } cs_form;
 
-/* Checks that the value at index is a table that has no unknown fields and no holes in its list. */
+/* Checks that the value at index is a table that has no unknown fields and no holes in its list. If
+ * fields are spelled in another way (suggest.h) or given by their places, the value is replaced by
+ * a copy that has them by celspan's names. */
 cs_form cs_form_open(lua_State *L, const cs_noun *noun, int index);
+/* Replaces the table at index in this way, and checks its names; the rest of it may be missing. */
+void cs_form_settle(lua_State *L, const cs_noun *noun, int index);
 /* Raises "noun: ..." with the formats of lua_pushfstring. */
 _Noreturn void cs_form_fail(const cs_form *form, const char *format, ...);
 /* Pushes a number as messages show it: a whole number has no point. */
@@ -30,6 +35,14 @@ void cs_form_try(const cs_form *form, celspan_status status);
 /* Pushes a field, without metamethods; returns its type. */
 int cs_form_get(const cs_form *form, const char *name);
 bool cs_form_has(const cs_form *form, const char *name);
+/* "#rgb", "#rrggbb" and with alpha, the names of CSS in any case, and "transparent"; false: another
+ * text. */
+bool cs_form_colour(const char *text, celspan_paint *out);
+/* The same as "#rrggbb" or another text that the core reads; NULL: no colour. */
+#define CS_FORM_HEX 28
+const char *cs_form_hex(const char *text, char out[CS_FORM_HEX]);
+/* As cs_userdata_shown, with the nearest name of a colour: "redd"; did you mean "red"? */
+const char *cs_form_shown_colour(lua_State *L, int index);
 /* A texture, a paint or a colour like "#rrggbb": the value on top of the stack, the field `name`.
  * Borrowed from a value that is left on the stack. */
 celspan_texture *cs_form_texture(const cs_form *form, const char *name);

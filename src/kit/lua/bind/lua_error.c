@@ -7,6 +7,7 @@
 #include "inside/context.h"
 #include "lua/bind/caller.h"
 #include "lua/bind/host.h"
+#include "lua/bind/names.h"
 #include "lua/bind/userdata.h"
 
 /* ---------------------------------------------------------------- messages */
@@ -28,9 +29,19 @@ static void push_chain(lua_State *L, const char *message, const char *position) 
     cs_caller_push_chain(L, position, lua_tocfunction(L, lua_upvalueindex(2)));
 }
 
-/* A hint that Lua's own message about the argument of a frame function lacks. */
-static const char *hint_of(const char *message) {
-  return strstr(message, "attempt to") && strstr(message, "celspan.frame")
+/* Pushes a hint that Lua's own message about the argument of a frame function, or about a global
+ * without a value, lacks. */
+static const char *push_hint(lua_State *L, const char *message) {
+  static const char before[] = "a nil value (global '";
+  const char *attempt = strstr(message, "attempt to "), *name = strstr(message, before);
+  bool is_use =
+      attempt && (strncmp(attempt + 11, "call", 4) == 0 || strncmp(attempt + 11, "index", 5) == 0);
+  if (name && is_use) {
+    name += sizeof before - 1;
+    lua_pushlstring(L, name, strcspn(name, "'"));
+    return cs_names_push_hint(L, lua_tostring(L, -1));
+  }
+  return attempt && strstr(message, "celspan.frame")
              ? " (a frame function gets a table: write f.time, f.progress or f.number)"
              : "";
 }
@@ -51,9 +62,10 @@ static int handle_error(lua_State *L) {
   else
     cs_caller_push_position(L, lua_tocfunction(L, lua_upvalueindex(2)));
   const char *where = lua_tostring(L, -1);
-  lua_pushfstring(L, "%s%s%s", label, message + position, hint_of(message));
+  const char *hint = push_hint(L, message);
+  lua_pushfstring(L, "%s%s%s", label, message + position, hint);
   push_chain(L, message, where);
-  lua_concat(L, 3);
+  lua_pushfstring(L, "%s%s%s", where, lua_tostring(L, -2), lua_tostring(L, -1));
   return 1;
 }
 

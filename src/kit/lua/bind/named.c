@@ -143,8 +143,8 @@ void cs_named_end(celspan_context *context) { celspan_context_set_origin(context
 /* ---------------------------------------------------------------- names */
 
 void cs_named_copy(lua_State *L, const cs_userdata *from, cs_userdata *value) {
-  const cs_kind *kind = from->noun->kind;
-  const char *name = kind->name_of ? kind->name_of(from->handle) : "";
+  const cs_kind *kind = value->noun->kind, *old = from->noun->kind;
+  const char *name = old->name_of && kind->named ? old->name_of(from->handle) : "";
   void *made = NULL;
   if (!name[0])
     return;

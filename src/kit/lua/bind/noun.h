@@ -120,6 +120,12 @@ typedef enum cs_list {
   CS_LIST_ITEMS  /* any number of items: :with{a, b} replaces them all */
 } cs_list;
 
+/* A field that may be given by values of the list. */
+typedef struct cs_place {
+  const char *field;
+  int count; /* how many values */
+} cs_place;
+
 typedef struct cs_noun {
   const char *name;
   const char *about;   /* a sentence about its value */
@@ -131,8 +137,11 @@ typedef struct cs_noun {
   const char *item_about;   /* a description of the items, for people; NULL: none */
   const cs_field *fields;   /* ended by a row without a name */
   bool has_gaps;            /* ITEMS: items that are nil or false are left out */
-  const char *places;       /* TUPLE: "{x, y, w, h}" for messages; NULL: its values have no names */
-  const char *either[2];    /* fields of which only one may be given; NULL: none */
+  const char *places;       /* "{x, y, w, h}" for messages; NULL: its values have no names */
+  /* fields whose values may be in the list, one after another, of a TUPLE after its first value;
+   * ended by NULL; NULL: none */
+  const cs_place *by_place;
+  const char *either[2]; /* fields of which only one may be given; NULL: none */
   /* fields that may only be given with either[1], ended by NULL; NULL: none */
   const char *const *second;
   void (*create)(const struct cs_form *form, struct cs_userdata *value);

@@ -1,6 +1,6 @@
 #include "lua/bind/suggest.h"
 
-#include <stdbool.h>
+#include <stdio.h>
 #include <string.h>
 #include <strings.h>
 
@@ -33,37 +33,32 @@ int cs_suggest_distance(const char *a, const char *b) {
 /* Words of other programs, each with celspan's word, for words that are too different to be found
  * by comparing letters. */
 static const char *const others[][2] = {
-    {"color", "texture"},
-    {"colour", "texture"},
-    {"fill", "texture"},
-    {"paint", "texture"},
-    {"r", "radius"},
-    {"center", "centre"},
-    {"width", "w"},
-    {"height", "h"},
-    {"path", "file"},
-    {"filename", "file"},
-    {"name", "file"},
-    {"src", "file"},
-    {"alpha", "opacity"},
-    {"blur", "defocus"},
-    {"angle", "rotate"},
-    {"rotation", "rotate"},
-    {"background", "back"},
-    {"light", "front"},
-    {"interpolation", "sampling"},
-    {"filter", "antialias"},
-    {"fillrule", "rule"},
-    {"fill_rule", "rule"},
-    {"move", "translate"},
-    {"middle", "centre"},
-    {"linear", "bilinear"},
-    {"cubic", "bicubic"},
-    {"gauss", "gaussian"},
-    {"length", "duration"},
-    {"count", "frames"},
-    {"threads", "workers"},
-    {"plus", "add"},
+    {"color", "fill"},       {"colour", "fill"},
+    {"paint", "fill"},       {"r", "radius"},
+    {"width", "w"},          {"height", "h"},
+    {"path", "file"},        {"filename", "file"},
+    {"name", "file"},        {"src", "file"},
+    {"alpha", "opacity"},    {"alpha", "fade"},
+    {"opacity", "fade"},     {"squash", "scale"},
+    {"grow", "scale"},       {"flip", "scale"},
+    {"spin", "rotate"},      {"turn", "rotate"},
+    {"position", "move_to"}, {"anchor", "pivot"},
+    {"new", "init"},         {"preview", "watch"},
+    {"view", "watch"},       {"export", "render"},
+    {"blur", "defocus"},     {"angle", "rotate"},
+    {"rotation", "rotate"},  {"background", "back"},
+    {"light", "front"},      {"interpolation", "sampling"},
+    {"filter", "antialias"}, {"fillrule", "rule"},
+    {"fill_rule", "rule"},   {"move", "translate"},
+    {"middle", "centre"},    {"linear", "bilinear"},
+    {"cubic", "bicubic"},    {"gauss", "gaussian"},
+    {"length", "duration"},  {"count", "frames"},
+    {"threads", "workers"},  {"plus", "add"},
+    {"horizontal", "lie"},   {"labels", "values"},
+    {"max", "most"},         {"unit", "format"},
+    {"column", "bar"},       {"seconds", "duration"},
+    {"draw", "frame"},       {"lerp", "mix"},
+    {"line", "stroke"},      {"parallax", "multiplane"},
 };
 
 static const char *find(const char *name, const char *const *names, size_t count) {
@@ -100,4 +95,33 @@ const char *cs_suggest_name(const char *word, const char *const *names, size_t c
     }
   }
   return best;
+}
+
+/* ---------------------------------------------------------------- other spellings */
+
+/* Spellings, which may be parts of a word; the last one is of a whole name of a field. */
+static const char *const spellings[][2] = {
+    {"center", "centre"}, {"color", "colour"}, {"gray", "grey"}, {"fill", "texture"}};
+enum { FIELD = sizeof spellings / sizeof *spellings - 1 };
+
+const char *cs_suggest_own(const char *word, bool is_field, char out[CS_SUGGEST_SIZE]) {
+  const char *found = word;
+  if (is_field && strcmp(word, spellings[FIELD][0]) == 0)
+    return spellings[FIELD][1];
+  for (int i = 0; i < FIELD; i++) {
+    const char *other = spellings[i][0], *own = spellings[i][1], *at = strstr(found, other);
+    if (!at || strlen(word) + strlen(own) >= CS_SUGGEST_SIZE)
+      continue;
+    const size_t before = (size_t)(at - found), old = strlen(other), new = strlen(own);
+    if (found == word)
+      snprintf(out, CS_SUGGEST_SIZE, "%s", word);
+    memmove(out + before + new, out + before + old, strlen(out + before + old) + 1);
+    memcpy(out + before, own, new);
+    found = out;
+  }
+  return found == word ? NULL : found;
+}
+
+const char *cs_suggest_shown(const char *field) {
+  return strcmp(field, spellings[FIELD][1]) == 0 ? spellings[FIELD][0] : field;
 }

@@ -168,25 +168,36 @@ static bool is_word(const char *const *words, const char *word) {
   return words && *words;
 }
 
-/* Raises if the name is a word of another field, as in fill = "evenodd". */
+const char *cs_unknown_field_of(const cs_noun *noun, const char *word) {
+  for (const cs_field *field = noun->fields; field->name; field = cs_field_next(field))
+    if (field->type == CS_TYPE_CHOICE && is_word(field->choices, word))
+      return field->name;
+  return NULL;
+}
+
+/* Raises if the value is a word of another field, as in winding = "evenodd". */
 static void fail_choice(lua_State *L, const cs_noun *noun, int table, const char *name) {
   lua_getfield(L, table, name);
   const char *word = lua_type(L, -1) == LUA_TSTRING ? lua_tostring(L, -1) : NULL;
-  for (const cs_field *field = noun->fields; word && field->name; field = cs_field_next(field))
-    if (field->type == CS_TYPE_CHOICE && is_word(field->choices, word))
-      cs_caller_error(L, "%s: unknown field '%s'; write %s = \"%s\"", noun->name, name, field->name,
-                      word);
+  const char *field = word ? cs_unknown_field_of(noun, word) : NULL;
+  if (field)
+    cs_caller_error(L, "%s: unknown field '%s'; write %s = \"%s\"", noun->name, name, field, word);
   lua_pop(L, 1);
 }
 
 /* Raises for names that a noun does not have, with a hint to use something else. */
 static void fail_elsewhere(lua_State *L, const cs_noun *noun, const char *name) {
   static const struct {
-    const char *noun, *field, *hint;
+    const char *noun, *field, *hint; /* noun: NULL: any */
   } others[] = {
-      {"text", "along", "celspan.letters(text, nil, { along = ... }) sets a text along a path"}};
+      {"text", "along", "celspan.letters(text, nil, { along = ... }) sets a text along a path"},
+      {"cel", "z", "multiplane { film = f.size, { cel, z = ... } } has depths"},
+      {NULL, "weight", "write variations = { wght = 700 }"},
+      {NULL, "bold", "write variations = { wght = 700 }"},
+      {NULL, "stroke", "value:stroke { width = 2, fill = ... } is the line along its edge"}};
   for (size_t i = 0; i < sizeof others / sizeof *others; i++)
-    if (strcmp(others[i].noun, noun->name) == 0 && strcmp(others[i].field, name) == 0)
+    if ((!others[i].noun || strcmp(others[i].noun, noun->name) == 0) &&
+        strcmp(others[i].field, name) == 0)
       cs_caller_error(L, "%s: unknown field '%s'; %s", noun->name, name, others[i].hint);
 }
 
@@ -210,8 +221,8 @@ _Noreturn void cs_unknown_fail_name(lua_State *L, const char *noun, const char *
     cs_caller_error(L, "%s: unknown field '%s'; did you mean '%s'?", noun, name, nearest);
   else if (count == 0)
     cs_caller_error(L, "%s: unknown field '%s'; %s", noun, name,
-                    strcmp(name, "texture") == 0 ? "write object:paint(texture)"
-                                                 : "there are no named fields");
+                    strcmp(cs_suggest_shown(name), "fill") == 0 ? "write object:paint(fill)"
+                                                                : "there are no named fields");
   else
     cs_caller_error(L, "%s: unknown field '%s'; the fields are %s", noun, name,
                     push_names(L, names, count));
@@ -224,7 +235,7 @@ _Noreturn void cs_unknown_fail(lua_State *L, const cs_noun *noun, int table, con
   size_t count = 0;
   for (const cs_field *field = noun->fields; field->name && count < MOST_NAMES;
        field = cs_field_next(field))
-    names[count++] = field->name;
+    names[count++] = cs_suggest_shown(field->name);
   fail_list(L, noun, table, name);
   fail_parts(L, noun, table, name);
   fail_choice(L, noun, table, name);

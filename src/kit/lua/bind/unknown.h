@@ -20,3 +20,5 @@ _Noreturn void cs_unknown_fail_name(lua_State *L, const char *noun, const char *
 /* places: "{x, y}". If the table at index names one of these values, pushes "write {10, 20}, not {x
  * = 10, y = 20}"; otherwise returns false and pushes nothing. */
 bool cs_unknown_push_places(lua_State *L, int index, const char *places);
+/* The field of which the word is a choice; NULL: it is a word of none. */
+const char *cs_unknown_field_of(const cs_noun *noun, const char *word);

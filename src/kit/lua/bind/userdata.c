@@ -8,6 +8,7 @@
 #include "lua/bind/caller.h"
 #include "lua/bind/put.h"
 #include "lua/bind/require.h"
+#include "lua/bind/suggest.h"
 #include "lua/bind/unknown.h"
 
 /* Deep enough for all fields: a list of points. */
@@ -204,9 +205,9 @@ static int compare(const void *a, const void *b) {
 static int fail_unknown(lua_State *L, const cs_noun *noun, int methods) {
   const char *names[MOST_NAMES];
   size_t count = 0;
-  for (const cs_field *field = noun->fields; field->name && count < MOST_NAMES - 3;
+  for (const cs_field *field = noun->fields; field->name && count < MOST_NAMES - 4;
        field = cs_field_next(field))
-    names[count++] = field->name;
+    names[count++] = cs_suggest_shown(field->name);
   size_t first = count;
   if (noun->kind->named) {
     names[count++] = "name";
@@ -214,6 +215,8 @@ static int fail_unknown(lua_State *L, const cs_noun *noun, int methods) {
   }
   if (noun->kind->mode)
     names[count++] = "mode";
+  if (noun->kind->transform)
+    names[count++] = "pivot";
   for (lua_pushnil(L); count < MOST_NAMES && lua_next(L, methods); lua_pop(L, 1))
     if (!cs_userdata_has_field(noun, lua_tostring(L, -2)))
       names[count++] = lua_tostring(L, -2); /* the table keeps it alive */
@@ -249,6 +252,24 @@ static bool push_mode(lua_State *L, const cs_userdata *value, const char *key) {
   return true;
 }
 
+/* Pushes the pivot of a value, or nil; false if the key is another one, or values of this kind have
+ * no pivots. */
+static bool push_pivot(lua_State *L, const cs_userdata *value, const char *key) {
+  if (strcmp(key, "pivot") != 0 || !value->noun->kind->transform)
+    return false;
+  const cs_anchor *anchor = cs_userdata_own(value);
+  lua_pushnil(L);
+  if (!anchor->has_pivot)
+    return true;
+  lua_createtable(L, 2, 0);
+  const double point[2] = {anchor->pivot.x, anchor->pivot.y};
+  for (int i = 0; i < 2; i++) {
+    lua_pushnumber(L, point[i]);
+    lua_rawseti(L, -2, i + 1);
+  }
+  return true;
+}
+
 /* Pushes the field named by argument 2, nil if it was left out; false if there is no such field. */
 static bool push_read(lua_State *L, const cs_userdata *value) {
   lua_pushnil(L);
@@ -267,6 +288,18 @@ static bool push_read(lua_State *L, const cs_userdata *value) {
          cs_userdata_has_field(value->noun, lua_tostring(L, 2));
 }
 
+/* Replaces argument 2, another spelling of a field, by celspan's; false: it is no such
+ * spelling. */
+static bool respell(lua_State *L, const cs_userdata *value) {
+  char out[CS_SUGGEST_SIZE];
+  const char *own = cs_suggest_own(lua_tostring(L, 2), true, out);
+  if (!own || !cs_userdata_has_field(value->noun, own))
+    return false;
+  lua_pushstring(L, own);
+  lua_replace(L, 2);
+  return true;
+}
+
 /* Returns a method, or else a field; tables are returned as copies. */
 static int index_value(lua_State *L) {
   const cs_kind *kind = lua_touserdata(L, lua_upvalueindex(2));
@@ -276,9 +309,9 @@ static int index_value(lua_State *L) {
   if (!lua_isnil(L, 2) && lua_rawget(L, lua_upvalueindex(1)) != LUA_TNIL)
     return 1;
   const char *key = lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : NULL;
-  if (key && (push_name(L, value, key) || push_mode(L, value, key)))
+  if (key && (push_name(L, value, key) || push_mode(L, value, key) || push_pivot(L, value, key)))
     return 1;
-  if (lua_isnil(L, 2) || push_read(L, value))
+  if (lua_isnil(L, 2) || push_read(L, value) || (key && respell(L, value) && push_read(L, value)))
     return 1;
   return fail_unknown(L, value->noun, lua_upvalueindex(1));
 }

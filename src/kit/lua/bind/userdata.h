@@ -33,6 +33,13 @@ typedef struct cs_placement {
   double fade;
 } cs_placement;
 
+/* The own data of objects and cels: the point that a script gave them, and of a letter the middle
+ * of its baseline (anchor.h). */
+typedef struct cs_anchor {
+  celspan_point pivot, baseline;
+  bool has_pivot, has_baseline;
+} cs_anchor;
+
 extern const cs_noun cs_noun_paint, cs_noun_rostrum, cs_noun_rostrum_object, cs_noun_film;
 extern const cs_kind cs_kind_paint, cs_kind_texture, cs_kind_object, cs_kind_cel, cs_kind_rostrum,
     cs_kind_film, cs_kind_frame;

@@ -49,11 +49,18 @@ REFUSE(native, module)
   static int open_##name(lua_State *L) { return run(L, #folder "/", #name ".lua"); }
 CS_PRIVATE(OPEN_PRIVATE)
 
+/* celspan.color, another spelling of celspan.colour */
+CELSPAN_API int luaopen_celspan_color(lua_State *L);
+int luaopen_celspan_color(lua_State *L) {
+  cs_require_public(L, "celspan.colour");
+  return 1;
+}
+
 void cs_embedded_open(lua_State *L) {
 #define ROW(name, folder) {"celspan." #name, luaopen_celspan_##name},
 #define PRIVATE_ROW(name, folder) {"celspan." #name, open_##name},
-  static const luaL_Reg modules[] = {CS_PUBLIC(ROW) CS_PRIVATE(ROW)
-                                         ROW(native, module){NULL, NULL}};
+  static const luaL_Reg modules[] = {CS_PUBLIC(ROW) CS_PRIVATE(ROW) ROW(native, module)
+                                         ROW(color, draw){NULL, NULL}};
   static const luaL_Reg own[] = {CS_PRIVATE(PRIVATE_ROW){NULL, NULL}};
   cs_require_offer(L, modules, own);
 }

@@ -13,6 +13,7 @@
 #include "lua/bind/caller.h"
 #include "lua/bind/host.h"
 #include "lua/bind/lua_error.h"
+#include "lua/bind/names.h"
 #include "lua/bind/userdata.h"
 #include "lua/module/artwork.h"
 #include "lua/module/parameters.h"
@@ -166,11 +167,15 @@ static int run(lua_State *L) {
     set_search_path(L, folder); /* a sandbox has its own `require` */
   if (!c->text && push_artwork(L, c->path))
     return 1;
+  cs_names_open(L);
   int outcome = load(L, c);
   if (outcome == LUA_ERRSYNTAX && cs_lua_error_position(lua_tostring(L, -1)) == 0)
     return luaL_error(L, "%s: %s", c->path, lua_tostring(L, -1)); /* a compiled chunk */
   if (outcome != LUA_OK)
     return lua_error(L);
+  lua_pushfstring(L, "@%s", c->path);
+  cs_names_note(L, lua_tostring(L, -1), c->text);
+  lua_pop(L, 1);
   luaL_checkstack(L, c->argument_count + 4, "too many arguments");
   for (int i = 0; i < c->argument_count; i++)
     lua_pushstring(L, c->arguments[i]);

@@ -8,7 +8,9 @@
 #include "lua/bind/caller.h"
 #include "lua/bind/construct.h"
 #include "lua/bind/files.h"
+#include "lua/bind/form.h"
 #include "lua/bind/host.h"
+#include "lua/bind/names.h"
 #include "lua/bind/require.h"
 #include "lua/bind/suggest.h"
 #include "lua/bind/warnings.h"
@@ -42,6 +44,20 @@ static int nearest(lua_State *L) {
     lua_pop(L, 1);
   }
   lua_pushstring(L, cs_suggest_name(word, names, count));
+  return 1;
+}
+
+/* native.synonym(word, is_field): celspan's spelling of a word that has another one, or nil. */
+static int synonym(lua_State *L) {
+  char out[CS_SUGGEST_SIZE];
+  lua_pushstring(L, cs_suggest_own(luaL_checkstring(L, 1), lua_toboolean(L, 2), out));
+  return 1;
+}
+
+/* native.hex(text): "#rrggbb" for the name of a colour, a text like that as it is, or nil. */
+static int hex(lua_State *L) {
+  char out[CS_FORM_HEX];
+  lua_pushstring(L, cs_form_hex(luaL_checkstring(L, 1), out));
   return 1;
 }
 
@@ -125,8 +141,61 @@ static int movie(lua_State *L) { return call_program(L, CS_NATIVE_MOVIE, "movies
 
 static int is_movie(lua_State *L) { return call_program(L, CS_NATIVE_IS_MOVIE, "movies"); }
 
+static int own(lua_State *L);
+
+/* native.refusal(text): why Lua does not compile the text, or nil. */
+static int refusal(lua_State *L) {
+  size_t size;
+  const char *text = luaL_checklstring(L, 1, &size);
+  return luaL_loadbufferx(L, text, size, "=", "t") != LUA_OK;
+}
+
+/* native.assignable(text): the words that a text may assign, as keys: they are before a comma, a
+ * sign "=" or a comment, or after "function". */
+static int assignable(lua_State *L) {
+  static const char word[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_0123456789";
+  size_t size;
+  const char *at = luaL_checklstring(L, 1, &size), *end = at + size;
+  bool is_named = false;
+  lua_newtable(L);
+  while (at < end) {
+    const size_t length = strspn(at, word);
+    const char *next = at + length + strspn(at + length, " \t\r\n");
+    if (length > 0 && (is_named || strchr(",=-", *next))) {
+      lua_pushlstring(L, at, length);
+      lua_pushboolean(L, true);
+      lua_rawset(L, -3);
+    }
+    is_named = length == 8 && memcmp(at, "function", length) == 0;
+    at = length > 0 ? next : at + 1;
+  }
+  return 1;
+}
+
+/* native.caller(): Lua's name of the file of the nearest caller that does not belong to celspan. */
+static int caller(lua_State *L) {
+  lua_Debug info;
+  lua_pushstring(L, cs_caller_find(L, &info) ? info.source : "");
+  return 1;
+}
+
+/* native.open_names(): gives the globals celspan's names, as in a script. */
+static int open_names(lua_State *L) {
+  cs_names_open(L);
+  return 0;
+}
+
 static const luaL_Reg native_functions[] = {{"find", find},
                                             {"nearest", nearest},
+                                            {"synonym", synonym},
+                                            {"hex", hex},
+                                            {"own", own},
+                                            {"refusal", refusal},
+                                            {"assignable", assignable},
+                                            {"caller", caller},
+                                            {"open_names", open_names},
+                                            {"cel_of", cs_nouns_cel_of},
+                                            {"as_letter", cs_nouns_as_letter},
                                             {"nouns", cs_nouns_push},
                                             {"source", cs_embedded_source},
                                             {"refuse", refuse},
@@ -241,7 +310,8 @@ static const struct {
                       {"star", "celspan.star", "outline"},
                       {"merge", "celspan.merge", "merged"},
                       {"composite", "celspan.composite", "of"},
-                      {"dissolve", "celspan.dissolve", "by_chance"}};
+                      {"dissolve", "celspan.dissolve", "by_chance"},
+                      {"names", "celspan.names", "of"}};
 
 #define WRITTEN_IN_LUA (sizeof written_in_lua / sizeof *written_in_lua)
 
@@ -269,6 +339,25 @@ static size_t list_names(lua_State *L, const char **names) {
       names[count++] = lua_tostring(L, -2);
   qsort(names, count, sizeof *names, compare);
   return count;
+}
+
+/* native.own(name): what the module celspan has by this name, or nil; without a name, a table with
+ * all its names as keys. */
+static int own(lua_State *L) {
+  const char *names[MOST_NAMES];
+  lua_settop(L, 1);
+  cs_require_public(L, "celspan");
+  lua_insert(L, 1);
+  lua_pushvalue(L, 2);
+  if (!lua_isnil(L, 2))
+    return lua_rawget(L, 1) != LUA_TNIL || push_written(L, lua_tostring(L, 2));
+  size_t count = list_names(L, names);
+  lua_createtable(L, (int)count, 0);
+  for (size_t i = 0; i < count; i++) {
+    lua_pushboolean(L, true);
+    lua_setfield(L, -2, names[i]);
+  }
+  return 1;
 }
 
 /* Pushes what is written here for a node of other compositors, or nil. */

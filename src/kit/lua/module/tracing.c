@@ -6,6 +6,7 @@
 #include "inside/colour.h"
 #include "inside/pictures.h"
 #include "inside/scene.h"
+#include "lua/bind/form.h"
 #include "lua/bind/host.h"
 #include "lua/bind/list.h"
 #include "lua/bind/put.h"
@@ -31,7 +32,7 @@ static bool read_code(lua_State *L, int i, unsigned char *code) {
   celspan_paint paint;
   lua_rawgeti(L, -1, i);
   const char *text = lua_tostring(L, -1);
-  bool is_read = text && celspan_paint_parse(text, &paint) && paint.beta == 1;
+  bool is_read = text && cs_form_colour(text, &paint) && paint.beta == 1;
   for (int c = 0; c < 3 && is_read; c++)
     code[c] = cs_transfer_srgb8(paint.pigment[c]);
   lua_pop(L, 1);

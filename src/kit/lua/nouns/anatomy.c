@@ -280,7 +280,7 @@ int cs_anatomy_of(lua_State *L) {
 int cs_anatomy_rebuild(lua_State *L) {
   static const cs_noun noun = {.name = "morph", .fields = cs_bare_fields};
   const cs_userdata *like = cs_userdata_test(L, 1, &cs_kind_object);
-  const cs_form form = {L, &noun, 2};
+  const cs_form form = {.L = L, .noun = &noun, .table = 2};
   celspan_object *made = NULL;
   luaL_argcheck(L, like, 1, "an object is needed");
   const cs_boolean *boolean = ((celspan_object *)like->handle)->data->boolean;

@@ -124,8 +124,23 @@ static int operate_difference(lua_State *L) {
 }
 static int operate_xor(lua_State *L) { return operate(L, &cs_noun_xor, CELSPAN_OPERATOR_XOR, "~"); }
 
+/* Operators that other programs have, and a call of a field as if it were a method. */
+static int refuse_sum(lua_State *L) {
+  return cs_caller_error(L, "objects are no numbers: a | b shows both, a - b cuts b out, and "
+                            "a:scale(2) makes it larger");
+}
+
+static int refuse_call(lua_State *L) {
+  return cs_caller_error(L, "%s is no function: leave out the parentheses, as in art.object",
+                         cs_userdata_type(L, 1));
+}
+
 const luaL_Reg cs_boolean_operators[] = {{"__bor", operate_union},
                                          {"__band", operate_intersection},
                                          {"__sub", operate_difference},
                                          {"__bxor", operate_xor},
+                                         {"__add", refuse_sum},
+                                         {"__mul", refuse_sum},
+                                         {"__div", refuse_sum},
+                                         {"__call", refuse_call},
                                          {NULL, NULL}};

@@ -1,5 +1,6 @@
 /* celspan.cel: a list of objects with its own lights and defocus. */
 #include "inside/colour.h"
+#include "lua/bind/construct.h"
 #include "lua/bind/fields.h"
 #include "lua/bind/host.h"
 #include "lua/nouns/grade.h"
@@ -58,6 +59,15 @@ static void create(const cs_form *form, cs_userdata *value) {
   celspan_grade_unref(desc.grade);
   cs_form_try(form, status);
   value->handle = cel;
+}
+
+int cs_nouns_cel_of(lua_State *L) {
+  const cs_userdata *object = cs_userdata_any(L, 1);
+  lua_createtable(L, 1, 0);
+  lua_pushvalue(L, 1);
+  lua_rawseti(L, -2, 1);
+  cs_construct_like(L, &cs_noun_cel, -1, object);
+  return 1;
 }
 
 static const cs_field fields[] = {

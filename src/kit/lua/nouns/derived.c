@@ -48,7 +48,7 @@ static celspan_status finish(celspan_context *context, double fade, const char *
 
 int cs_derived_paint(lua_State *L) {
   const cs_userdata *shape = cs_userdata_self(L, &cs_kind_object, "paint");
-  const cs_form form = {L, &argument, 2};
+  const cs_form form = {.L = L, .noun = &argument, .table = 2};
   celspan_context *context = cs_host_context(L);
   celspan_box box;
   lua_settop(L, 2);

@@ -83,20 +83,6 @@ celspan_texture *cs_grain_push_texture(const cs_form *form) {
   return ((const cs_userdata *)lua_touserdata(L, -1))->handle;
 }
 
-void cs_grain_add(lua_State *L, int film, int frame) {
-  int exposures = lua_gettop(L);
-  if (lua_getfield(L, film, "grain") != LUA_TNIL) {
-    cs_require_module(L, "celspan.grain");
-    lua_getfield(L, -1, "of_film");
-    lua_pushvalue(L, exposures);
-    lua_pushvalue(L, film);
-    lua_getfield(L, frame, "number");
-    lua_call(L, 3, 1);
-    lua_replace(L, exposures);
-  }
-  lua_settop(L, exposures);
-}
-
 int64_t cs_grain_begin(lua_State *L, int64_t number) {
   lua_getfield(L, LUA_REGISTRYINDEX, FRAME);
   int64_t before = lua_tointeger(L, -1);

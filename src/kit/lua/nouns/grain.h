@@ -13,9 +13,6 @@ void cs_grain_check(const cs_form *form);
 bool cs_grain_push_object(const cs_form *form);
 /* Pushes the texture of a rostrum's grain, which is borrowed from it; NULL: it has none. */
 celspan_texture *cs_grain_push_texture(const cs_form *form);
-/* Replaces the exposures on top of the stack by those with the grain of the film, if it has one.
- * frame: the `f` of the frame. film, frame: absolute indices. */
-void cs_grain_add(lua_State *L, int film, int frame);
 /* Sets the number of the frame that is being built, for the grain of its cels, and returns the one
  * before: a frame may ask for a frame of another film. */
 int64_t cs_grain_begin(lua_State *L, int64_t number);

@@ -71,7 +71,7 @@ static celspan_status object_blend(celspan_context *context, void *handle, celsp
   .origin_of = type##_origin_of
 #define HAS_PLACE(type)                                                                            \
   .transform = type##_transform, .fade = type##_fade, .bounds = type##_bounds,                     \
-  .contains = type##_contains
+  .contains = type##_contains, .own_size = sizeof(cs_anchor)
 
 static const luaL_Reg texture_methods[] = {
     {"with", cs_construct_with}, {"named", cs_named_method}, {NULL, NULL}};

@@ -59,11 +59,11 @@ static celspan_light read_colour(const cs_form *form, const char *name) {
   lua_State *L = form->L;
   int type = lua_type(L, -1);
   celspan_paint paint;
-  if (type == LUA_TSTRING && celspan_paint_parse(lua_tostring(L, -1), &paint))
+  if (type == LUA_TSTRING && cs_form_colour(lua_tostring(L, -1), &paint))
     return (celspan_light){paint.pigment[0], paint.pigment[1], paint.pigment[2], paint.beta};
   if (type != LUA_TTABLE)
     cs_form_fail(form, "field '%s' must be a light {r, g, b}, {r, g, b, a} or \"#rrggbb\", got %s",
-                 name, cs_userdata_shown(L, -1));
+                 name, cs_form_shown_colour(L, -1));
   double n[4] = {0, 0, 0, 1};
   const cs_numbers_name list = {
       .noun = form->noun->name, .field = name, .shape = "a light {r, g, b, a}"};

@@ -14,6 +14,7 @@
 #include "lua/bind/list.h"
 #include "lua/bind/lua_error.h"
 #include "lua/bind/put.h"
+#include "lua/bind/require.h"
 #include "lua/bind/take.h"
 #include "lua/nouns/nouns.h"
 #include "lua/nouns/options.h"
@@ -37,6 +38,7 @@ typedef struct film_form {
   int frames, first;
   const char *title;
   cs_own_space space;
+  celspan_texture *background;
 } film_form;
 
 static int64_t count_frames(const film_form *film) {
@@ -140,6 +142,8 @@ static const cs_field fields[] = {
     {"title", CS_TEXT(film_form, title)},
     CS_OWN_SPACE(film_form, space, "linear"),
     CS_GRAIN_FIELD,
+    {"background", CS_SURFACE(film_form, background), .fallback = "nothing",
+     .about = "Covers each frame behind everything, and no camera moves it"},
     {"sound", CS_OWN("string|celspan.film.sound|celspan.film.sound[]"),
      .about = "A file, a sound, or a list of sounds, which are mixed"},
     {"sound_offset", CS_NUMBER(film_form, sound_offset), .least = -MOST_FRAMES, .most = MOST_FRAMES,
@@ -151,7 +155,7 @@ static const cs_field fields[] = {
      .about = "A .srt or .vtt file, or captions: a track of subtitles in videos"},
     {"poster", CS_OWN("integer|string"),
      .about = "The frame that stands for the film, by its number or a time such as \"2s\""},
-    {"frame", CS_OWN("fun(f: celspan.frame): celspan.exposures"), .is_required = true,
+    {"frame", CS_OWN("fun(f: celspan.frame): celspan.shown"), .is_required = true,
      .about = "A pure function of f"},
     {0}};
 const cs_noun cs_noun_film = {.name = "film",
@@ -320,7 +324,15 @@ static bool is_whole(lua_State *L, int index, lua_Integer *out) {
   return good;
 }
 
-/* f:on(n): the index of the first of n frames that share a drawing. */
+/* The index of the first of `step` frames that share the drawing of the frame at 1. */
+static lua_Integer held_index(lua_State *L, lua_Integer step) {
+  lua_getiuservalue(L, 1, 1);
+  lua_getfield(L, -1, "index");
+  lua_Integer index = lua_tointeger(L, -1);
+  return index - index % step;
+}
+
+/* f:on(n): the index held for n frames */
 static int on(lua_State *L) {
   cs_userdata_self(L, &cs_kind_frame, "on");
   lua_Integer step = 0;
@@ -328,14 +340,24 @@ static int on(lua_State *L) {
     return cs_caller_error(L, "on: takes a whole number of frames, 1 or more, f:on(2), got %s",
                            lua_type(L, 2) == LUA_TNUMBER ? luaL_tolstring(L, 2, NULL)
                                                          : cs_userdata_type(L, 2));
-  lua_getiuservalue(L, 1, 1);
-  lua_getfield(L, -1, "index");
-  lua_Integer index = lua_tointeger(L, -1);
-  lua_pushinteger(L, index - index % step);
+  lua_pushinteger(L, held_index(L, step));
   return 1;
 }
 
-static const luaL_Reg frame_methods[] = {{"on", on}, {"random", random_number}, {NULL, NULL}};
+/* The time held for `step` frames. */
+static int push_held_time(lua_State *L, const char *method, lua_Integer step) {
+  cs_userdata_self(L, &cs_kind_frame, method);
+  const double index = (double)held_index(L, step);
+  lua_getfield(L, -2, "fps");
+  lua_pushnumber(L, index / lua_tonumber(L, -1));
+  return 1;
+}
+
+static int twos(lua_State *L) { return push_held_time(L, "twos", 2); }
+static int threes(lua_State *L) { return push_held_time(L, "threes", 3); }
+
+static const luaL_Reg frame_methods[] = {
+    {"on", on}, {"twos", twos}, {"threes", threes}, {"random", random_number}, {NULL, NULL}};
 const cs_kind cs_kind_frame = {
     .name = "celspan.frame", .methods = frame_methods, .own_size = sizeof(uint64_t)};
 
@@ -359,25 +381,36 @@ static void push_frame(lua_State *L, const cs_film_info *film, int64_t number) {
 
 /* ---------------------------------------------------------------- frames */
 
-/* Pushes "script.lua:12: the frame function's result". */
-static const char *push_result_name(lua_State *L, int function) {
-  cs_caller_push_function(L, function);
-  lua_pushliteral(L, "the frame function's result");
-  lua_concat(L, 2);
-  return lua_tostring(L, -1);
+/* Replaces the exposures on top of the stack by those to which celspan's module of this name adds
+ * what the field of the film says, if the film has it. */
+static void add(lua_State *L, const char *field, const char *module) {
+  int exposures = lua_gettop(L);
+  if (lua_getfield(L, 3, field) != LUA_TNIL) {
+    cs_require_module(L, module);
+    lua_getfield(L, -1, "of_film");
+    lua_pushvalue(L, exposures);
+    lua_pushvalue(L, 3);
+    lua_getfield(L, 2, "number");
+    lua_call(L, 3, 1);
+    lua_replace(L, exposures);
+  }
+  lua_settop(L, exposures);
 }
 
 /* frame function, f, film -> exposures */
 static int call_frame(lua_State *L) {
-  const char *name = push_result_name(L, 1);
   lua_pushvalue(L, 1);
   lua_pushvalue(L, 2);
-  lua_call(L, 1, 1);
+  lua_call(L, 1, 2);
+  if (!lua_isnil(L, -1))
+    return cs_caller_error(L, "the frame function returned two values: write return { a, b }");
+  lua_pop(L, 1);
   int result = lua_gettop(L);
   celspan_frame_desc desc;
-  cs_options_exposures(L, result, name, &desc);
+  cs_options_exposures(L, result, "the frame function's result", &desc);
   lua_settop(L, result);
-  cs_grain_add(L, 3, 2);
+  add(L, "background", "celspan.background");
+  add(L, "grain", "celspan.grain");
   return 1;
 }
 

@@ -1,6 +1,7 @@
 #include "lua/nouns/nouns.h"
 
 #include "lua/bind/put.h"
+#include "lua/bind/suggest.h"
 #include "lua/nouns/options.h"
 
 const cs_noun *const cs_nouns_made[] = {&cs_noun_paint,
@@ -64,9 +65,10 @@ static void push_choices(lua_State *L, const char *const *words) {
   luaL_pushresult(&text);
 }
 
-static void push_field(lua_State *L, const cs_field *field) {
+static void push_field(lua_State *L, const cs_noun *noun, const cs_field *field) {
+  bool has_place = noun->by_place && noun->list == CS_LIST_NONE;
   lua_createtable(L, 0, 10);
-  cs_put_text(L, "name", field->name);
+  cs_put_text(L, "name", cs_suggest_shown(field->name));
   if (!field->written && field->choices)
     push_choices(L, field->choices);
   else
@@ -77,7 +79,7 @@ static void push_field(lua_State *L, const cs_field *field) {
   cs_put_text(L, "preset", field->preset);
   cs_put_text(L, "about", field->about);
   cs_put_text(L, "fallback", field->fallback);
-  cs_put_flag(L, "is_required", field->is_required);
+  cs_put_flag(L, "is_required", field->is_required && !has_place);
   if (field->least >= field->most)
     return;
   cs_put_number(L, field->is_above ? "above" : "least", field->least);
@@ -93,7 +95,7 @@ static void push_noun(lua_State *L, const cs_noun *noun) {
   cs_put_text(L, "item", noun->item_written);
   cs_put_text(L, "items", noun->item_about);
   for (const cs_field *field = noun->fields; field->name; field = cs_field_next(field)) {
-    push_field(L, field);
+    push_field(L, noun, field);
     lua_rawseti(L, -2, ++count);
   }
 }

@@ -29,7 +29,7 @@ void cs_options_use_film(cs_options *options, const cs_film_info *film);
  * values are scratch memory left on the stack: *filter points to them. */
 bool cs_options_antialias(const cs_form *form, celspan_antialias_mode *mode,
                           const celspan_filter_desc **filter);
-/* Reads the value at index, a rostrum or {{rostrum, weight}, ...}, as the exposures of *desc. The
- * exposures are scratch memory, left on the stack; the rostrums are borrowed from the value. name:
- * for messages. */
+/* Replaces what a frame shows (lua/celspan/film/shown.lua), the value at index, by a rostrum or a
+ * list {{rostrum, weight}, ...}, and reads it as the exposures of *desc. They are scratch memory,
+ * left on the stack; the rostrums belong to the value. name: for messages. */
 void cs_options_exposures(lua_State *L, int index, const char *name, celspan_frame_desc *desc);

@@ -41,9 +41,9 @@ static void read_triple(const cs_form *form, const char *name, double triple[3])
   }
   celspan_paint colour;
   const char *text = lua_tostring(L, -1);
-  if (!celspan_paint_parse(text, &colour) || colour.beta != 1)
+  if (!cs_form_colour(text, &colour) || colour.beta != 1)
     cs_form_fail(form, "field '%s' must be {r, g, b} or a colour like \"#rrggbb\", got %s", name,
-                 cs_userdata_shown(L, -1));
+                 cs_form_shown_colour(L, -1));
   for (int i = 0; i < 3; i++)
     triple[i] = colour.pigment[i];
   lua_pop(L, 1);
@@ -66,7 +66,7 @@ static void create_paint(const cs_form *form, cs_userdata *value) {
 static void complete_triple(lua_State *L, int fields, const char *name, double fallback) {
   int type = lua_getfield(L, fields, name);
   celspan_paint colour;
-  if (type == LUA_TSTRING && celspan_paint_parse(lua_tostring(L, -1), &colour)) {
+  if (type == LUA_TSTRING && cs_form_colour(lua_tostring(L, -1), &colour)) {
     double numbers[3] = {colour.pigment[0], colour.pigment[1], colour.pigment[2]};
     lua_settop(L, fields);
     cs_put_numbers(L, name, numbers, 3);
@@ -129,9 +129,9 @@ static bool read_text(lua_State *L, const char *function, double rgb[3], double 
   if (lua_type(L, 1) != LUA_TSTRING)
     return false;
   celspan_paint colour;
-  if (!celspan_paint_parse(lua_tostring(L, 1), &colour))
+  if (!cs_form_colour(lua_tostring(L, 1), &colour))
     cs_caller_error(L, "%s: takes numbers or a colour like \"#rrggbb\", got %s", function,
-                    cs_userdata_shown(L, 1));
+                    cs_form_shown_colour(L, 1));
   for (int i = 0; i < 3; i++)
     rgb[i] = colour.pigment[i];
   *alpha = colour.beta;
@@ -169,12 +169,12 @@ int cs_nouns_gel(lua_State *L) {
 
 static celspan_paint mix_argument(lua_State *L, int index) {
   celspan_paint paint;
-  if (lua_type(L, index) == LUA_TSTRING && celspan_paint_parse(lua_tostring(L, index), &paint))
+  if (lua_type(L, index) == LUA_TSTRING && cs_form_colour(lua_tostring(L, index), &paint))
     return paint;
   const cs_userdata *value = cs_userdata_test(L, index, &cs_kind_paint);
   if (!value)
     cs_caller_error(L, "mix: argument %d must be a paint or a colour like \"#rrggbb\", got %s",
-                    index, cs_userdata_shown(L, index));
+                    index, cs_form_shown_colour(L, index));
   return *(const celspan_paint *)cs_userdata_own(value);
 }
 

@@ -6,6 +6,7 @@
 #include "inside/colour.h"
 #include "inside/geometry.h"
 #include "inside/scene.h"
+#include "lua/bind/anchor.h"
 #include "lua/bind/caller.h"
 #include "lua/bind/construct.h"
 #include "lua/bind/form.h"
@@ -37,6 +38,13 @@ static int push_transformed(lua_State *L, const char *method, const cs_userdata 
       value->noun->kind->transform(cs_host_context(L), value->handle, &matrix, &copy->handle));
   placement.matrix = celspan_matrix_then(placement.matrix, matrix);
   cs_userdata_place(copy, &placement);
+  cs_anchor_move(copy, &matrix);
+  return 1;
+}
+
+/* The value as it is, where a place is a word and the value has nothing to paint. */
+static int push_self(lua_State *L) {
+  lua_pushvalue(L, 1);
   return 1;
 }
 
@@ -47,28 +55,23 @@ static int translate(lua_State *L) {
   return push_transformed(L, "translate", value, celspan_matrix_translation(dx, dy));
 }
 
-/* The arguments cx, cy at `index`: both are given, or none; then it is the origin. */
-static celspan_point read_centre(lua_State *L, int index, const char *method) {
-  celspan_point centre = {0, 0};
-  if (!lua_isnoneornil(L, index) || !lua_isnoneornil(L, index + 1)) {
-    centre.x = cs_form_argument(L, index, method, "the centre's x");
-    centre.y = cs_form_argument(L, index + 1, method, "the centre's y");
-  }
-  return centre;
-}
-
 static int scale(lua_State *L) {
   const cs_userdata *value = self(L, "scale");
   double sx = cs_form_argument(L, 2, "scale", "sx");
-  double sy = lua_isnoneornil(L, 3) ? sx : cs_form_argument(L, 3, "scale", "sy");
-  celspan_point centre = read_centre(L, 4, "scale");
+  const bool is_even = lua_isnoneornil(L, 3) || cs_anchor_is_whole(L, 3);
+  double sy = is_even ? sx : cs_form_argument(L, 3, "scale", "sy");
+  celspan_point centre;
+  if (!cs_anchor_read(L, cs_anchor_is_whole(L, 3) ? 3 : 4, "scale", value, &centre))
+    return push_self(L);
   return push_transformed(L, "scale", value, celspan_matrix_scaling_about(sx, sy, centre));
 }
 
 static int rotate(lua_State *L) {
   const cs_userdata *value = self(L, "rotate");
   double degrees = cs_form_argument(L, 2, "rotate", "the angle in degrees");
-  celspan_point centre = read_centre(L, 3, "rotate");
+  celspan_point centre;
+  if (!cs_anchor_read(L, 3, "rotate", value, &centre))
+    return push_self(L);
   return push_transformed(L, "rotate", value, cs_matrix_turn(degrees, centre));
 }
 
@@ -76,10 +79,26 @@ static int skew(lua_State *L) {
   const cs_userdata *value = self(L, "skew");
   double x = cs_form_argument(L, 2, "skew", "the first angle in degrees");
   double y = cs_form_argument(L, 3, "skew", "the second angle in degrees");
-  celspan_point centre = read_centre(L, 4, "skew");
+  celspan_point centre;
+  if (!cs_anchor_read(L, 4, "skew", value, &centre))
+    return push_self(L);
   celspan_matrix matrix =
       celspan_matrix_skewing_about(cs_placed_radians(x), cs_placed_radians(y), centre);
   return push_transformed(L, "skew", value, matrix);
+}
+
+static int move_to(lua_State *L) {
+  const cs_userdata *value = self(L, "move_to");
+  double x = cs_form_argument(L, 2, "move_to", "x"), y = cs_form_argument(L, 3, "move_to", "y");
+  lua_settop(L, 4);
+  if (lua_isnil(L, 4)) {
+    lua_pushliteral(L, "centre");
+    lua_replace(L, 4);
+  }
+  celspan_point from;
+  if (!cs_anchor_read(L, 4, "move_to", value, &from))
+    return push_self(L);
+  return push_transformed(L, "move_to", value, celspan_matrix_translation(x - from.x, y - from.y));
 }
 
 static int transform(lua_State *L) {
@@ -233,10 +252,10 @@ static int contains(lua_State *L) {
 
 #define METHODS                                                                                    \
   {"translate", translate}, {"scale", scale}, {"rotate", rotate}, {"skew", skew},                  \
-      {"transform", transform}, {"quad", quad}, {"fade", fade}, {"blend", blend},                  \
-      {"shadow", cs_nouns_shadow}, {"glow", cs_nouns_glow}, {"outline", cs_nouns_outline},         \
-      {"bounds", bounds}, {"contains", contains}, {"named", cs_named_method},                      \
-      {"with", cs_construct_with}, {                                                               \
+      {"move_to", move_to}, {"transform", transform}, {"quad", quad}, {"fade", fade},              \
+      {"blend", blend}, {"shadow", cs_nouns_shadow}, {"glow", cs_nouns_glow},                      \
+      {"outline", cs_nouns_outline}, {"bounds", bounds}, {"contains", contains},                   \
+      {"named", cs_named_method}, {"with", cs_construct_with}, {                                   \
     NULL, NULL                                                                                     \
   }
 const luaL_Reg cs_placed_methods[] = {METHODS};

@@ -220,8 +220,12 @@ const cs_noun cs_noun_rect = {OBJECT(rect),
 const cs_noun cs_noun_triangle = {
     OBJECT(triangle), .about = "A triangle.",          .list = CS_LIST_TUPLE,
     .item = "point",  .item_written = "celspan.point", .item_about = "Three points"};
-const cs_noun cs_noun_circle = {OBJECT(circle), .about = "A circle."};
-const cs_noun cs_noun_ellipse = {OBJECT(ellipse), .about = "An ellipse."};
+static const cs_place circle_places[] = {{"centre", 2}, {"radius", 1}, {0}};
+const cs_noun cs_noun_circle = {OBJECT(circle), .about = "A circle, also as { x, y, radius }.",
+                                .places = "{x, y, r}", .by_place = circle_places};
+static const cs_place ellipse_places[] = {{"centre", 2}, {"radii", 2}, {0}};
+const cs_noun cs_noun_ellipse = {OBJECT(ellipse), .about = "An ellipse, also as { x, y, rx, ry }.",
+                                 .places = "{x, y, rx, ry}", .by_place = ellipse_places};
 const cs_noun cs_noun_polygon = {OBJECT(polygon), .about = "A closed polygon.",
                                  .list = CS_LIST_ITEMS, .item = "point",
                                  .item_written = "celspan.point"};

@@ -72,7 +72,7 @@ static int call(lua_State *L) {
   lua_pushnumber(L, r->y);
   push_row(L, r->row);
   lua_call(L, 2, 1);
-  cs_form form = {L, &cs_noun_scanline, lua_gettop(L)};
+  cs_form form = {.L = L, .noun = &cs_noun_scanline, .table = lua_gettop(L)};
   if (lua_isnil(L, -1))
     return 0;
   if (!lua_istable(L, -1))

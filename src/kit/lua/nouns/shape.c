@@ -21,6 +21,17 @@ cs_userdata *cs_shape_at(lua_State *L, int index) {
   return value;
 }
 
+/* Whether the value on top of the stack is a table with an object, as a drawing is. */
+static bool has_object(lua_State *L) {
+  if (!lua_istable(L, -1))
+    return false;
+  lua_pushliteral(L, "object");
+  lua_rawget(L, -2);
+  bool has = luaL_testudata(L, -1, cs_kind_object.name) != NULL;
+  lua_pop(L, 1);
+  return has;
+}
+
 celspan_object **cs_shape_items(const cs_form *form, int count) {
   lua_State *L = form->L;
   celspan_object **objects = cs_form_scratch(L, (size_t)count, sizeof *objects);
@@ -35,7 +46,8 @@ celspan_object **cs_shape_items(const cs_form *form, int count) {
                    "item %d must be an object, got a list; table.unpack(list) gives its objects",
                    i + 1);
     if (!value)
-      cs_form_fail(form, "item %d must be an object, got %s", i + 1, cs_userdata_type(L, -1));
+      cs_form_fail(form, "item %d must be an object, got %s%s", i + 1, cs_userdata_type(L, -1),
+                   has_object(L) ? "; its field `object` is one: write .object after it" : "");
     objects[i] = value->handle;
     lua_rawseti(L, kept, i + 1);
   }

@@ -102,7 +102,7 @@ static void check_sound(lua_State *L, const cs_noun *noun) {
   sound_form read;
   int top = lua_gettop(L);
   if (!lua_istable(L, -1)) {
-    check_file(&(cs_form){L, noun, top}, false);
+    check_file(&(cs_form){.L = L, .noun = noun, .table = top}, false);
     return;
   }
   cs_form form = open_sound(L, noun, &read);
@@ -168,7 +168,7 @@ static void check_name(lua_State *L, const cs_noun *noun, int list, const char *
   bool is_given = lua_istable(L, sound) && lua_getfield(L, sound, field) != LUA_TNIL;
   lua_pushvalue(L, list);
   if (is_given && !has_name(L, sound + 1, sound))
-    cs_form_fail(&(cs_form){L, noun, sound},
+    cs_form_fail(&(cs_form){.L = L, .noun = noun, .table = sound},
                  "field '%s' must be the name of another sound of the film, got \"%s\", which none "
                  "has",
                  field, lua_tostring(L, sound + 1));

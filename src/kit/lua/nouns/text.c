@@ -1,9 +1,15 @@
 /* Text: celspan.text, one object; celspan.glyphs, an object a letter. */
+#include <errno.h>
+#include <limits.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "celspan/text.h"
+#include "inside/files.h"
+#include "lua/bind/anchor.h"
 #include "lua/bind/caller.h"
 #include "lua/bind/construct.h"
 #include "lua/bind/fields.h"
@@ -12,6 +18,7 @@
 #include "lua/bind/list.h"
 #include "lua/bind/named.h"
 #include "lua/bind/put.h"
+#include "lua/bind/suggest.h"
 #include "lua/nouns/nouns.h"
 
 #define HOLDER "celspan.letters"
@@ -35,6 +42,32 @@ static void read_string(const cs_form *form, celspan_text_desc *desc) {
   desc->text = lua_tolstring(L, -1, &desc->text_size); /* for a number, this makes a new string */
 }
 
+/* Raises the error that a font is missing, if a font with a similar name lies in the folder where
+ * it was looked for. */
+static void refuse_missing(const cs_form *form, const char *path) {
+  const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
+  char nearest[NAME_MAX + 1] = "";
+  int least = (int)strlen(name) / 3 + 1;
+  lua_pushlstring(form->L, path, (size_t)(name - path));
+  DIR *folder = opendir(slash ? lua_tostring(form->L, -1) : ".");
+  for (const struct dirent *entry; folder && (entry = cs_open_entry(folder));) {
+    const int distance = cs_suggest_distance(name, entry->d_name);
+    if (distance < least && cs_files_is_font(entry->d_name)) {
+      least = distance;
+      snprintf(nearest, sizeof nearest, "%s", entry->d_name);
+    }
+  }
+  if (folder)
+    closedir(folder);
+  lua_pop(form->L, 1);
+  if (nearest[0])
+    cs_form_try(form, celspan_context_fail(
+                          cs_host_context(form->L), CELSPAN_INPUT,
+                          "%.500s: No such file or directory; did you mean \"%s\"? 'celspan fonts' "
+                          "lists the fonts there are",
+                          path, nearest));
+}
+
 /* The font on top of the stack; values pushed by the search are left above it. */
 static const char *read_font(const cs_form *form) {
   lua_State *L = form->L;
@@ -44,7 +77,13 @@ static const char *read_font(const cs_form *form) {
   const char *name = lua_tostring(L, -1);
   if (strlen(name) != lua_rawlen(L, -1))
     cs_form_fail(form, "field 'font' must not hold a zero byte");
-  return cs_files_find(L, name, NULL);
+  const char *tried, *path = cs_files_find(L, name, &tried);
+  if (access(path, F_OK) == 0 || errno != ENOENT)
+    return path;
+  refuse_missing(form, path);
+  if (tried)
+    refuse_missing(form, tried);
+  return path;
 }
 
 static void read_fonts(const cs_form *form, celspan_text_desc *desc) {
@@ -194,9 +233,10 @@ static const cs_field glyph_fields[] = {
     {"index", CS_WHOLE(text_form, index), .is_required = true, .about = "From 1"},
     {.more = text_fields}};
 
+static const cs_place places[] = {{"at", 2}, {0}};
 #define STRING                                                                                     \
   .list = CS_LIST_TUPLE, .item = "string|number", .item_written = "string|number",                 \
-  .item_about = "The text; \\n breaks lines"
+  .item_about = "The text, x, y; \\n breaks lines", .places = "{text, x, y}", .by_place = places
 const cs_noun cs_noun_text = {.name = "text",
                               .about = "The letters of a text as one primitive.",
                               .kind = &cs_kind_object,
@@ -217,6 +257,14 @@ static celspan_glyphs **push_letters(const cs_form *form, const celspan_text_des
   return holder;
 }
 
+/* Gives the value the letter as its object. */
+static void hold(cs_userdata *value, const celspan_glyph *glyph) {
+  cs_anchor *anchor = cs_userdata_own(value);
+  anchor->baseline = (celspan_point){glyph->x + glyph->advance / 2, glyph->y};
+  anchor->has_baseline = true;
+  value->handle = celspan_object_ref(glyph->object);
+}
+
 /* Makes one of the letters again, for :with. */
 static void create_glyph(const cs_form *form, cs_userdata *value) {
   text_form read = read_text(form, true);
@@ -226,7 +274,7 @@ static void create_glyph(const cs_form *form, cs_userdata *value) {
   if (index < 1 || (size_t)index > count)
     cs_form_fail(form, "field 'index' must be from 1 to %d, the letters of the text, got %d",
                  (int)count, index);
-  value->handle = celspan_object_ref(celspan_glyphs_get(letters, (size_t)index - 1)->object);
+  hold(value, celspan_glyphs_get(letters, (size_t)index - 1));
 }
 
 const cs_noun cs_noun_glyph = {.name = "glyph",
@@ -239,8 +287,7 @@ const cs_noun cs_noun_glyph = {.name = "glyph",
 
 /* Pushes the object of a letter. Its fields are the fields at index `fields`, and its place. */
 static void push_object(lua_State *L, int fields, const celspan_glyph *glyph, lua_Integer index) {
-  cs_userdata *value = cs_userdata_push(L, &cs_noun_glyph);
-  value->handle = celspan_object_ref(glyph->object);
+  hold(cs_userdata_push(L, &cs_noun_glyph), glyph);
   lua_newtable(L);
   for (lua_pushnil(L); lua_next(L, fields);) {
     lua_pushvalue(L, -2);
@@ -251,16 +298,40 @@ static void push_object(lua_State *L, int fields, const celspan_glyph *glyph, lu
   lua_setiuservalue(L, -2, 1);
 }
 
+/* Reading what a letter does not have: the methods are those of its object. */
+static int refuse_method(lua_State *L) {
+  const char *name = lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : "";
+  for (const luaL_Reg *method = cs_placed_methods; method->name; method++)
+    if (strcmp(method->name, name) == 0)
+      return cs_caller_error(L, "a letter has no '%s': write letter.object:%s(...)", name, name);
+  lua_pushnil(L);
+  return 1;
+}
+
+int cs_nouns_as_letter(lua_State *L) {
+  lua_settop(L, 1);
+  luaL_newmetatable(L, "celspan.letter");
+  cs_put_text(L, "__metatable", "celspan.letter");
+  lua_pushcfunction(L, refuse_method);
+  lua_setfield(L, -2, "__index");
+  lua_setmetatable(L, 1);
+  return 1;
+}
+
 static void push_glyph(lua_State *L, int fields, const celspan_glyph *glyph, lua_Integer index) {
-  lua_createtable(L, 0, 6);
+  lua_createtable(L, 0, 7);
   push_object(L, fields, glyph, index);
   lua_setfield(L, -2, "object");
   cs_put_number(L, "x", glyph->x);
   cs_put_number(L, "y", glyph->y);
   cs_put_number(L, "advance", glyph->advance);
+  cs_put_number(L, "middle", glyph->x + glyph->advance / 2);
   lua_pushlstring(L, glyph->text, glyph->text_size);
   lua_setfield(L, -2, "text");
   cs_put_integer(L, "line", glyph->line);
+  lua_pushcfunction(L, cs_nouns_as_letter);
+  lua_insert(L, -2);
+  lua_call(L, 1, 1);
 }
 
 int cs_nouns_glyphs(lua_State *L) {

@@ -5,8 +5,10 @@
 #include <math.h>
 
 #include "inside/films.h"
+#include "lua/bind/fields.h"
 #include "lua/bind/files.h"
 #include "lua/bind/host.h"
+#include "lua/bind/numbers.h"
 #include "lua/nouns/nouns.h"
 
 static void create_gradient(const cs_form *form, cs_userdata *value) {
@@ -27,9 +29,23 @@ static void create_gradient(const cs_form *form, cs_userdata *value) {
   value->handle = texture;
 }
 
-/* The stops {at, paint} of the array part: scratch memory, left on the stack. */
+/* The colours of a list as stops at even distances. */
+static void spread_colours(const cs_form *form, int list, size_t count, celspan_stop *stops) {
+  for (size_t i = 0; i < count; i++)
+    stops[i] = (celspan_stop){count > 1 ? (double)i / (double)(count - 1) : 0,
+                              cs_form_tuple_paint(form, list, (int)i + 1, "colour", 0)};
+}
+
+/* The stops {at, paint} of the array part, or its colours: scratch memory, left on the stack. */
 static celspan_stop *read_stops(const cs_form *form, int count) {
   celspan_stop *stops = cs_form_scratch(form->L, (size_t)count, sizeof *stops);
+  const int type = lua_rawgeti(form->L, form->table, 1);
+  const bool has_colours = type == LUA_TSTRING || type == LUA_TUSERDATA;
+  lua_pop(form->L, 1);
+  if (has_colours) {
+    spread_colours(form, form->table, (size_t)count, stops);
+    return stops;
+  }
   for (int i = 0; i < count; i++) {
     cs_form_item(form, i + 1, LUA_TTABLE, "stop", "{at, paint}");
     stops[i].at = cs_form_tuple_number(form, -1, 1, "stop", i + 1);
@@ -44,7 +60,7 @@ typedef struct gradient {
   celspan_point from, to; /* or centre, focus */
   double radius;
   double angle; /* degrees */
-  bool has_focus, has_matrix;
+  bool has_from, has_focus, has_radius, has_angle, has_matrix;
   celspan_matrix matrix;
   celspan_spread spread;
   celspan_stop *stops; /* scratch memory, left on the stack */
@@ -78,10 +94,59 @@ static void set_extent(const cs_form *form, const gradient *given, celspan_textu
   }
 }
 
+/* A gradient without points. */
+static void create_fitted(const cs_form *form, const gradient *given, celspan_fitted_desc *desc,
+                          cs_userdata *value) {
+  celspan_texture *texture = NULL;
+  desc->stops = given->stops;
+  desc->stop_count = given->count;
+  cs_form_try(form, celspan_texture_create_fitted(cs_host_context(form->L), desc, &texture));
+  set_extent(form, given, texture, value);
+}
+
+/* By rows of three, without the middle. */
+static const char *const sides[] = {"top left",    "top",    "top right",    "left", "right",
+                                    "bottom left", "bottom", "bottom right", NULL};
+
+/* The fields of a linear gradient without points: `to`, on top of the stack, or `angle`. */
+static celspan_fitted_desc read_fit(const cs_form *form, const gradient *given) {
+  celspan_fitted_desc desc = CELSPAN_FITTED_DESC;
+  const bool has_side = !lua_isnil(form->L, -1);
+  if (has_side && given->has_angle)
+    cs_form_fail(form, "give 'to' or 'angle', not both");
+  if (has_side) {
+    int place = cs_fields_word(form, "to", sides);
+    place += place >= 4;
+    desc.to_x = place % 3 - 1;
+    desc.to_y = place / 3 - 1;
+  }
+  desc.fit = given->has_angle ? CELSPAN_GRADIENT_ANGLE : CELSPAN_GRADIENT_SIDE;
+  desc.degrees = given->angle;
+  return desc;
+}
+
+static void read_point(const cs_form *form, const char *field, celspan_point *out) {
+  const cs_numbers_name name = {
+      .noun = form->noun->name, .field = field, .shape = "a point {x, y}"};
+  double pair[2];
+  cs_form_get(form, field);
+  cs_numbers_read(form->L, -1, &name, 2, 2, pair);
+  *out = (celspan_point){pair[0], pair[1]};
+}
+
 static void create_linear(const cs_form *form, cs_userdata *value) {
   gradient g;
   celspan_texture *texture = NULL;
   read_gradient(form, &g);
+  if (cs_form_get(form, "to") != LUA_TTABLE && !g.has_from) {
+    celspan_fitted_desc desc = read_fit(form, &g);
+    create_fitted(form, &g, &desc, value);
+    return;
+  }
+  read_point(form, "from", &g.from);
+  read_point(form, "to", &g.to);
+  if (g.has_angle)
+    cs_form_fail(form, "give 'angle', or 'from' and 'to', not both");
   cs_form_try(form, celspan_texture_create_linear(cs_host_context(form->L), g.from, g.to, g.stops,
                                                   g.count, &texture));
   set_extent(form, &g, texture, value);
@@ -91,6 +156,15 @@ static void create_radial(const cs_form *form, cs_userdata *value) {
   gradient g;
   celspan_texture *texture = NULL;
   read_gradient(form, &g);
+  if (!g.has_from && !g.has_radius && !g.has_focus) {
+    celspan_fitted_desc desc = CELSPAN_FITTED_DESC;
+    desc.fit = CELSPAN_GRADIENT_ELLIPSE;
+    create_fitted(form, &g, &desc, value);
+    return;
+  }
+  read_point(form, "centre", &g.from);
+  if (!g.has_radius)
+    cs_form_fail(form, "field 'radius' must be a number, got nil");
   cs_form_try(form, celspan_texture_create_focal(cs_host_context(form->L), g.from, g.radius,
                                                  g.has_focus ? g.to : g.from, g.stops, g.count,
                                                  &texture));
@@ -118,13 +192,19 @@ static const cs_field extent_fields[] = {
      .about = "Nine numbers: moves the gradient alone"},
     {0}};
 static const cs_field linear_fields[] = {
-    {"from", CS_POINT(gradient, from), .is_required = true, .about = "Where 0 lies"},
-    {"to", CS_POINT(gradient, to), .is_required = true, .about = "Where 1 lies"},
+    {"from", CS_POINT(gradient, from), CS_HAS(gradient, has_from), .about = "Where 0 lies",
+     .fallback = "the side opposite `to`, of the bounds of what is painted"},
+    {"to", CS_OWN("celspan.place"),
+     .about = "Where 1 lies: a point, with `from`; or a side or a corner",
+     .fallback = "\"bottom\""},
+    {"angle", CS_NUMBER(gradient, angle), CS_HAS(gradient, has_angle),
+     .about = "In place of `from` and `to`: where 1 lies, in degrees clockwise from up"},
     {.more = extent_fields}};
 static const cs_field radial_fields[] = {
-    {"centre", CS_POINT(gradient, from), .is_required = true},
-    {"radius", CS_NUMBER(gradient, radius), CS_FROM(0), .is_required = true,
-     .about = "Of the circle where 1 lies"},
+    {"centre", CS_POINT(gradient, from), CS_HAS(gradient, has_from),
+     .fallback = "the middle of the bounds of what is painted, with an ellipse that touches them"},
+    {"radius", CS_NUMBER(gradient, radius), CS_HAS(gradient, has_radius), CS_FROM(0),
+     .about = "Of the circle where 1 lies, with `centre`"},
     {"focus", CS_POINT(gradient, to), CS_HAS(gradient, has_focus), .about = "Where 0 lies",
      .fallback = "the centre"},
     {.more = extent_fields}};
@@ -159,9 +239,7 @@ static void read_colours(const cs_form *form, celspan_noise_desc *out) {
     cs_form_fail(form, "field 'colours' must be a list of 2 to %d colours", COLOURS_MOST);
   int list = lua_gettop(L);
   celspan_stop *stops = cs_form_scratch(L, count, sizeof *stops);
-  for (size_t i = 0; i < count; i++)
-    stops[i] = (celspan_stop){(double)i / (double)(count - 1),
-                              cs_form_tuple_paint(form, list, (int)i + 1, "colour", 0)};
+  spread_colours(form, list, count, stops);
   out->stops = stops;
   out->stop_count = count;
 }
@@ -316,8 +394,9 @@ const cs_noun cs_noun_gradient = {.name = "gradient",
                                   .create = create_gradient};
 
 #define STOPS                                                                                      \
-  .kind = &cs_kind_texture, .list = CS_LIST_ITEMS, .item = "stop", .item_written = "table",        \
-  .item_about = "Stops {at, paint}, at ascending in 0..1"
+  .kind = &cs_kind_texture, .list = CS_LIST_ITEMS, .item = "stop",                                 \
+  .item_written = "table|celspan.colour",                                                          \
+  .item_about = "Stops {at, paint}, at ascending in 0..1; or colours, at even distances"
 const cs_noun cs_noun_linear = {.name = "linear",
                                 .about =
                                     "A gradient along a line; beyond the ends it holds or repeats.",

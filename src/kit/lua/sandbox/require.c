@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 
 #include "lua/bind/host.h"
+#include "lua/bind/names.h"
 #include "lua/sandbox/guard.h"
 
 #define SOURCE_MOST ((off_t)16 << 20)
@@ -54,11 +55,24 @@ static const char *push_templates(lua_State *L, const char *search) {
   return lua_pushfstring(L, "%s/?.lua;%s/?/init.lua;%s", at, at, search);
 }
 
+/* Pushes what to do about a module that was not found, or "". */
+static const char *push_advice(lua_State *L, const char *name) {
+  const char *own = lua_pushfstring(L, "celspan.%s", name);
+  luaL_getsubtable(L, LUA_REGISTRYINDEX, LUA_PRELOAD_TABLE);
+  if (lua_getfield(L, -1, own) != LUA_TNIL)
+    return lua_pushfstring(L, "; celspan's own is require \"%s\"", own);
+  return lua_pushstring(L, strncmp(name, "stage.", 6) == 0
+                               ? "; copy the folder scripts/stage of celspan beside the script"
+                               : "");
+}
+
 /* Pushes the module's function and its path. */
 static void load_module(lua_State *L, const char *search, const char *name) {
   off_t size = 0;
-  if (!push_file(L, name, push_templates(L, search), &size))
-    luaL_error(L, "module '%s' not found:%s", name, lua_tostring(L, -1));
+  if (!push_file(L, name, push_templates(L, search), &size)) {
+    const char *tried = lua_tostring(L, -1);
+    luaL_error(L, "module '%s' not found%s:%s", name, push_advice(L, name), tried);
+  }
   const char *path = lua_tostring(L, -1);
   if (size > SOURCE_MOST)
     luaL_error(L, "%s: the module has more than 16 MiB, which is the limit", path);
@@ -66,6 +80,8 @@ static void load_module(lua_State *L, const char *search, const char *name) {
   if (luaL_loadfilex(L, path, "t") != LUA_OK)
     luaL_error(L, "error loading module '%s' from file '%s':\n\t%s", name, path,
                lua_tostring(L, -1));
+  cs_names_note(L, lua_pushfstring(L, "@%s", path), NULL);
+  lua_pop(L, 1);
   lua_insert(L, -2);
 }
 

@@ -9,7 +9,9 @@
 #include "inside/description.h"
 #include "inside/scene.h"
 #include "lua/bind/caller.h"
+#include "lua/bind/files.h"
 #include "lua/bind/lua_error.h"
+#include "lua/bind/names.h"
 #include "lua/bind/require.h"
 #include "lua/sandbox/library.h"
 
@@ -76,15 +78,6 @@ static bool allow(void *user, const char *folder) {
   return cs_roots_hold(roots, folder[0] ? folder : ".") || cs_roots_add(roots, folder);
 }
 
-static bool is_font(const char *path) {
-  static const char *const endings[] = {".ttf", ".otf", ".ttc", ".otc"};
-  const char *dot = strrchr(path, '.');
-  bool found = false;
-  for (size_t i = 0; dot && i < sizeof endings / sizeof *endings; i++)
-    found |= strcmp(dot, endings[i]) == 0;
-  return found;
-}
-
 static void admit(void *user, lua_State *L, const char *path) {
   const cs_sandbox *sandbox = user;
   errno = 0;
@@ -93,12 +86,12 @@ static void admit(void *user, lua_State *L, const char *path) {
   if (errno == ENOMEM)
     cs_host_try(L, path, cs_fail_memory(cs_host_context(L)));
   else
-    cs_caller_error(L, "%s: scripts in the sandbox can read only files in %s%s%s", path,
-                    sandbox->roots.count ? sandbox->roots.paths[sandbox->roots.count - 1]
-                                         : "their folder",
-                    cs_guard_hint(&sandbox->guard, " (--allow DIR adds a folder"),
-                    cs_guard_hint(&sandbox->guard,
-                                  is_font(path) ? ", --allow-system-fonts those of fonts)" : ")"));
+    cs_caller_error(
+        L, "%s: scripts in the sandbox can read only files in %s%s%s", path,
+        sandbox->roots.count ? sandbox->roots.paths[sandbox->roots.count - 1] : "their folder",
+        cs_guard_hint(&sandbox->guard, " (--allow DIR adds a folder"),
+        cs_guard_hint(&sandbox->guard,
+                      cs_files_is_font(path) ? ", --allow-system-fonts those of fonts)" : ")"));
 }
 
 static bool may_write(void *user, lua_State *L, const char *path) {
@@ -185,12 +178,19 @@ static void wrap_library(lua_State *L, const char *name, lua_CFunction opener,
   lua_pop(L, 1);
 }
 
+static int refuse_call(lua_State *L) {
+  return luaL_error(L, "the text \"%s\" is no function; the curve of that name is ease(\"%s\")",
+                    lua_tostring(L, 1), lua_tostring(L, 1));
+}
+
 static void seal_texts(lua_State *L) {
   lua_pushliteral(L, "");
   lua_getmetatable(L, -1);
   cs_library_push_string(L);
   lua_pushvalue(L, -1);
   lua_setfield(L, -3, "__index");
+  lua_pushcfunction(L, refuse_call);
+  lua_setfield(L, -3, "__call");
   lua_pushliteral(L, "string");
   lua_setfield(L, -3, "__metatable");
   lua_insert(L, -3);
@@ -238,7 +238,8 @@ static int tell_absent(lua_State *L) {
   const char *name = lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : "";
   for (size_t i = 0; i < sizeof absent / sizeof *absent; i++)
     if (strcmp(name, absent[i]) == 0)
-      return cs_caller_error(L, "%s is not in the sandbox%s", name,
+      return cs_caller_error(L, "%s is not in the sandbox%s%s", name,
+                             i == 0 ? "; csv.read and json.read read tables" : "",
                              cs_guard_hint(cs_guard_of(L), " (--trust gives scripts all of Lua)"));
   return 0;
 }
@@ -265,12 +266,13 @@ static void add_libraries(lua_State *L) {
   lua_setfield(L, -2, "utf8");
 }
 
-/* Sets the metatable that reports missing names, in the same way as a script would. */
+/* Sets the metatable that finds celspan's names and reports missing ones, in the same way as a
+ * script would. */
 static void add_absent(lua_State *L) {
   lua_getfield(L, -1, "setmetatable");
   lua_pushvalue(L, -2);
   lua_createtable(L, 0, 1);
-  lua_pushcfunction(L, tell_absent);
+  cs_names_push_found(L, tell_absent);
   lua_setfield(L, -2, "__index");
   lua_call(L, 2, 0);
 }
