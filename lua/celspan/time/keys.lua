@@ -24,9 +24,9 @@ local function is_paint(value)
   return getmetatable(value) == paint_metatable
 end
 
---- The paint of a string such as "#rrggbb", or nil.
+--- The paint of a string such as "#rrggbb", or nil: the name of a colour is a word.
 local function paint_of(text)
-  local good, paint = pcall(celspan.rgb, text)
+  local good, paint = pcall(celspan.rgb, text:sub(1, 1) == "#" and text)
   return good and paint or nil
 end
 

@@ -10,6 +10,10 @@
 --   local angle = hair:at(f.time)                              -- follows the head, and swings
 --
 --   local wind = motion.noise "wind"                           -- wind(x, y, z), -1..1
+--
+--   local x = 300 * motion.span(f.time, 0.5, 2, "outBack")      -- from 0.5 s on, for 2 s
+--   local t = motion.times { { "rise", 1 }, { 0.3 }, { "turn", 0.5 } }
+--   local angle = 90 * t.turn:at(f.time)                       -- after the pause of 0.3 s
 local chance = require "celspan.chance"
 local native = require "celspan.native"
 local curves = require "celspan.curves"
@@ -239,4 +243,95 @@ function motion.stagger(u, i, count, overlap)
   return math.max(0, math.min(1, (u - start) / length))
 end
 
-return fields.publish("motion", motion, Way, Wiggle, Follower)
+--- How much of something is over: 0 before it begins, 1 after its end, and between them the share
+--- of its length, eased if a curve is given.
+---@param time number Seconds
+---@param from number When it begins
+---@param length number Seconds, at least 0
+---@param curve? string|fun(u: number): number As celspan.ease takes it
+---@return number
+function motion.span(time, from, length, curve)
+  for i, name in ipairs { "time", "from", "length" } do
+    local value = (select(i, time, from, length))
+    fields.expect(fields.is_finite(value), value, "motion: span: %s must be a finite number", name)
+  end
+  fields.must(length >= 0, "motion: span: the length", "at least 0", length)
+  local u = length > 0 and (time - from) / length or time >= from and 1 or 0
+  u = math.max(0, math.min(1, u))
+  return curve and require "celspan.ease"(curve)(u) or u
+end
+
+---@class celspan.motion.part
+---@field from number Seconds
+---@field to number
+local Part = fields.class("celspan.motion.part", "a part of the times")
+
+--- How much of the part is over, as motion.span says it.
+---@param time number Seconds
+---@param curve? string|fun(u: number): number
+---@return number
+function Part:at(time, curve)
+  fields.check_at("motion: times", Part, self, time, "a time")
+  return motion.span(time, self.from, self.to - self.from, curve)
+end
+
+---@class celspan.motion.times
+---@field length number Seconds, to the end of the last item
+---@field [string] celspan.motion.part
+local Times = fields.class("celspan.motion.times", "the list of times")
+
+--- The name and the seconds of an item; the name of a pause is nil.
+local function read_item(item, i)
+  fields.expect_kind(type(item) == "table", item,
+    "motion: times: item %d must be { name, seconds }, or a pause { seconds }", i)
+  local name, seconds = item[1], item[2]
+  if type(name) == "number" and seconds == nil then name, seconds = nil, name end
+  fields.expect_kind(name == nil or type(name) == "string", name,
+    "motion: times: item %d must begin with its name, or be a pause { seconds }", i)
+  fields.expect(fields.is_finite(seconds) and seconds >= 0, seconds,
+    "motion: times: item %d needs its seconds, a finite number of at least 0", i)
+  return name, seconds
+end
+
+--- Parts of a movement one after another: { "rise", 1 } has a name and a length in seconds, { 0.3 }
+--- is a pause. A part begins `overlap` seconds before the end of the one before it; after a pause
+--- it begins at the end of the pause.
+---@param given table { { name, seconds }, { seconds }, ..., overlap = 0 }
+---@return celspan.motion.times
+function motion.times(given)
+  fields.check("motion: times", given, { {}, overlap = "number" })
+  local times, at, overlap = { length = 0 }, 0, given.overlap or 0
+  for i = 1, rawlen(given) do
+    local name, seconds = read_item(given[i], i)
+    if name and (times[name] or Times[name]) then
+      native.refuse(("motion: times: item %d cannot have the name '%s', which %s"):format(i, name,
+        getmetatable(times[name]) == Part and "another has" or "the list of times needs itself"))
+    end
+    local is_joined = name and i > 1 and type(given[i - 1][1]) == "string"
+    local from = math.max(0, at - (is_joined and overlap or 0))
+    at = from + seconds
+    times.length = math.max(times.length, at)
+    if name then times[name] = setmetatable({ from = from, to = at }, Part) end
+  end
+  return setmetatable(times, Times)
+end
+
+--- The parts as marks of a film: { name = { first, last } }.
+---@param fps number Frames per second
+---@param first? integer The number of the film's first frame (1)
+---@return table<string, integer[]>
+function Times:marks(fps, first)
+  fields.self("motion: times", Times, self, "marks")
+  fields.expect(fields.is_finite(fps) and fps > 0, fps,
+    "motion: times: marks takes frames per second, a number above 0")
+  local marks, number = {}, fields.whole("motion: times: the first frame", first or 1, -1e9)
+  for name, part in next, self do
+    if getmetatable(part) == Part then
+      local begins, ends = (part.from * fps + 0.5) // 1 | 0, (part.to * fps + 0.5) // 1 | 0
+      marks[name] = { number + begins, number + math.max(begins, ends - 1) }
+    end
+  end
+  return marks
+end
+
+return fields.publish("motion", motion, Way, Wiggle, Follower, Part, Times)
