@@ -30,7 +30,8 @@ local names_of = bones.names_of
 
 -- ---------------------------------------------------------------- joints and bones
 
-local function read_joints(given, joints)
+--- Adds the joints that a script gives to those that are known.
+function bones.read_joints(given, joints)
   for name, point in next, given or {} do
     if type(name) ~= "string" then
       refuse("joints are given by name: joints = { knee = { 120, 340 } }, got %s", fields.key(name))
@@ -164,7 +165,7 @@ end
 --- Reads the joints and the bones of a rig: rig.joints contains the joints that are drawn; those of
 --- the script are added; rig.bones are the bones by name, rig.list has parents first.
 function bones.read(rig, joints, given)
-  read_joints(joints, rig.joints)
+  bones.read_joints(joints, rig.joints)
   for i = 1, rawlen(given or {}) do read_bone(rig, i, given[i]) end
   if #rig.list == 0 then refuse "needs at least one bone { name, from = joint, to = joint }" end
   join_bones(rig)

@@ -18,6 +18,7 @@ local affine = require "celspan.affine"
 local bones = require "celspan.bones"
 local native = require "celspan.native"
 local fields = require "celspan.fields"
+local people = require "celspan.people"
 local poses = require "celspan.poses"
 local puppet_sheet = require "celspan.puppet_sheet"
 local sets = require "celspan.sets"
@@ -154,16 +155,21 @@ local function read_switches(rig, given)
   end
 end
 
+--- The parts of an artwork by name.
+local function parts_of(art)
+  local is_drawing = is_of("celspan.svg", art)
+  if not is_drawing and not is_of("celspan.layers.tree", art) then
+    refuse("field 'art' must be what svg.read or layers.read returns, with its parts, got %s",
+      fields.kind(art))
+  end
+  return (is_drawing and drawn_parts or painted_parts)(art)
+end
+
 local function new(_, given)
   fields.check("puppet", given, known)
-  if not is_of("celspan.svg", given.art) and not is_of("celspan.layers.tree", given.art) then
-    refuse("field 'art' must be what svg.read or layers.read returns, with its parts, got %s",
-      fields.kind(given.art))
-  end
   local rig = { art = given.art, bones = {}, list = {}, parts = {}, switches = {}, solids = {},
                 kept = setmetatable({}, { __mode = "k" }) }
-  local is_drawing = is_of("celspan.svg", given.art)
-  rig.by_name = (is_drawing and drawn_parts or painted_parts)(given.art)
+  rig.by_name = parts_of(given.art)
   rig.joints, rig.guides = drawn_joints(rig.by_name)
   bones.read(rig, given.joints, given.bones)
   join_parts(rig)
@@ -171,6 +177,18 @@ local function new(_, given)
   rig.mix, rig.layer = poses.mix, poses.layer
   rig.mirror = poses.mirror(rig.list[1].x)
   return setmetatable(rig, Rig)
+end
+
+--- The function that makes a rig of artwork whose parts have the usual names.
+local function maker(kind)
+  return function(given)
+    fields.check("puppet: " .. kind, given, known)
+    local by_name = parts_of(given.art)
+    local settings, figure = people.settings(kind, given, by_name, (drawn_joints(by_name)))
+    local rig = new(nil, settings)
+    rig.__figure = figure
+    return rig
+  end
 end
 
 -- ---------------------------------------------------------------- poses
@@ -445,6 +463,15 @@ function methods:joint(pose, name)
   return x + at[1], y + at[2]
 end
 
+--- How far the figure has gone in a gait: what moves its poses on, so that the feet stay.
+---@param time number Seconds
+---@param options? celspan.puppet.gait
+---@return number
+function methods:walked(time, options)
+  fields.self("puppet", Rig, self, "walked")
+  return people.walked(self, time, options)
+end
+
 --- A tail, a scarf or a plait that hangs on a joint and follows it.
 ---@param settings { joint: string, pose: (fun(time: number): table), length: number, links?: integer, angle?: number|(fun(time: number): number), stiffness?: number, damping?: number, wind?: number[]|(fun(time: number): number, number) } pose: the pose at a time, also before 0; links: how many (6); angle: degrees of the way in which it hangs, clockwise from the right (90: down); stiffness: swings per second of the first link (2); damping: 0.05 to 1 (0.3); wind: {x, y}, where 1 is as strong as its weight
 ---@return celspan.puppet.tail
@@ -470,7 +497,27 @@ function methods:sheet(pose, options)
   return celspan.union(marks):translate(at[1], at[2])
 end
 
+---@class celspan.puppet.gait
+---@field stride? number The way while each foot makes one step, in units; default: by the legs
+---@field pace? number Steps a second
+---@field bounce? number How far the body goes up and down, in units
+---@field gait? "walk"|"run"|"trot"|"gallop" For rig:walked; default "walk"
+
 ---@class celspan.puppet
 ---@overload fun(settings: table): celspan.puppet.rig
-return fields.publish("puppet", setmetatable({ steps = steps }, { __call = native.entry(new) }),
-  methods)
+---@field person fun(settings: table): celspan.puppet.rig A rig of a drawing whose parts have the usual names: head, body, upper arm, lower arm, hand, thigh, shin, foot, near and far
+---@field animal fun(settings: table): celspan.puppet.rig The same for four legs
+---@field walk fun(rig: celspan.puppet.rig, time: number, options?: celspan.puppet.gait): table A pose in place
+---@field run fun(rig: celspan.puppet.rig, time: number, options?: celspan.puppet.gait): table
+---@field trot fun(rig: celspan.puppet.rig, time: number, options?: celspan.puppet.gait): table
+---@field gallop fun(rig: celspan.puppet.rig, time: number, options?: celspan.puppet.gait): table
+---@field idle fun(rig: celspan.puppet.rig, time: number): table A pose that breathes
+---@field wave fun(rig: celspan.puppet.rig, time: number, options?: { side?: string }): table A raised arm
+---@field turn_head fun(rig: celspan.puppet.rig, degrees: number): table
+local puppet = { steps = steps, person = maker "person", animal = maker "animal",
+                 idle = people.idle, wave = people.wave, turn_head = people.turn_head }
+for _, gait in ipairs { "walk", "run", "trot", "gallop" } do
+  puppet[gait] = function(rig, time, options) return people.pose(rig, gait, time, options) end
+end
+
+return fields.publish("puppet", setmetatable(puppet, { __call = native.entry(new) }), methods)
