@@ -29,10 +29,11 @@ local most_rows = { area = 1000000, bar = 1000, line = 1000000, pie = 100 }
 local known = { kind = "string", data = "table", x = "string", y = "any", box = "table",
                 axes = "boolean", legend = "boolean", values = "boolean", hole = "number",
                 colours = "table", ink = "any", font = "any", size = "number",
-                language = "string", format = "function", progress = "number" }
+                language = "string", format = "function", progress = "number",
+                lie = "boolean", most = "number", highlight = "string" }
 
 local function check(given)
-  fields.check("chart", given, known)
+  given = fields.check("chart", given, known)
   for _, name in ipairs { "kind", "data", "box" } do
     if given[name] == nil then refuse("needs the field '%s'", name) end
   end
@@ -49,9 +50,13 @@ local function check(given)
   local size, hole = given.size or 1, given.hole or 0
   fields.must(size > 0, "chart: field 'size'", "more than 0", size)
   fields.must(hole >= 0 and hole < 1, "chart: field 'hole'", "0 or more and less than 1", hole)
+  for _, name in ipairs { "lie", "highlight" } do
+    if given[name] and given.kind ~= "bar" then refuse("field '%s' is of bars", name) end
+  end
   if given.colours and rawlen(given.colours) == 0 then
     refuse("field 'colours' must have at least one colour")
   end
+  return given
 end
 
 --- The sums of the series up to each, for areas on one another.
@@ -99,6 +104,8 @@ local function read(given)
     has_labels = axes and given.font ~= nil, language = given.language,
     written = writer(given), progress = math.max(0, math.min(1, given.progress or 1)),
     sums = given.kind == "area" and sums_of(columns) or nil,
+    lie = given.lie, most = given.most,
+    highlight = given.highlight and data.row_of(columns, given.highlight),
     cap = given.font and labels.text("H", style, { 0, 0 }):metrics().cap_height or 0,
     colour = function(k) return colours[(k - 1) % #colours + 1] end,
   }
@@ -106,10 +113,9 @@ end
 
 --- A chart of rows.
 local function new(_, given)
-  check(given)
-  local chart = read(given)
+  local chart = read(check(given))
   if chart.kind == "pie" then return pies.make(chart) end
-  return plots.make(chart, marks[chart.kind])
+  return (chart.lie and plots.lying or plots.make)(chart, marks[chart.kind])
 end
 
 ---@class celspan.chart.settings
@@ -125,6 +131,9 @@ end
 ---@field axes? boolean Default true
 ---@field legend? boolean The names of series; default: where there are several
 ---@field values? boolean The values at bars; default false
+---@field lie? boolean Of bars: they lie, and each name is beside its bar
+---@field most? number The end of the axis of values, if no value is greater
+---@field highlight? string Of bars: "max" or the name of one; the others are pale
 ---@field hole? number Of a pie: a share of its radius
 ---@field language? string Of the numbers, as for celspan.count
 ---@field format? fun(value: number): string How values are written

@@ -38,7 +38,8 @@ local function value_of(row, i, field)
   if not fields.is_finite(value) or math.abs(value) > MOST then
     refuse("data[%d]%s must be a finite number, at most 1e12, got %s%s", i,
       field and "." .. field or "", fields.shown(value),
-      type(value) == "string" and "; csv.read reads numbers with types = { ... }" or "")
+      type(value) == "string" and ("; csv.read reads numbers with types = { %s = \"number\" }")
+        :format(field or "name") or "")
   end
   return value
 end
@@ -116,6 +117,19 @@ function data.read(given, most)
     return data.written(names[i], given.language, data.decimals(names[i]))
   end
   return { name = name, xs = xs, series = series, count = total }
+end
+
+--- The row of a name, or with "max" the one with the greatest value.
+function data.row_of(columns, word)
+  local best, names = nil, {}
+  for i = 1, columns.count do
+    names[i] = columns.name(i)
+    local value = columns.series[1].values[i]
+    if word == names[i] then return i end
+    if value and (not best or value > columns.series[1].values[best]) then best = i end
+  end
+  return word == "max" and best or refuse("field 'highlight' must be \"max\" or a name, got '%s'%s",
+    word, fields.hint(word, names) or "")
 end
 
 --- The least and the greatest value, and whether all are whole numbers; 0, 0 where there are none.

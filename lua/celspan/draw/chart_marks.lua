@@ -46,17 +46,24 @@ local function grown(chart, i)
   return bar_ease(motion.stagger(chart.progress, i, chart.data.count, OVERLAP))
 end
 
-local function bars_of(chart, plot, k)
+local PALE = 0.35 -- bars beside the one that is highlighted
+local SWAP = { 0, 1, 0, 1, 0, 0, 0, 0, 1 } -- of x and y, for bars that lie
+
+--- Adds the bars of a series: those for which is_wanted(i) holds.
+local function add_bars(objects, chart, plot, k, is_wanted)
   local contours, base = {}, plot.up(0)
   for i, value in ipairs(chart.data.series[k].values) do
     local share = grown(chart, i)
-    if value and share > 0 then
+    if value and share > 0 and is_wanted(i) then
       local x, width = bar_place(chart, plot, i, k)
       contours[#contours + 1] = bar_of(x, width, base, plot.up(value * share),
         chart.style.size / 3)
     end
   end
-  return contours[1] and celspan.path { contours = contours, texture = chart.colour(k) }
+  if not contours[1] then return nil end
+  local bars = celspan.path { contours = contours, texture = chart.colour(k) }
+  objects[#objects + 1] = plot.lies and bars:transform(SWAP) or bars
+  return #objects
 end
 
 --- The values as they are written at the bars; nil where they would collide.
@@ -75,6 +82,7 @@ local function written(chart, plot)
   end
   local total, pitch = pitch_of(chart, plot)
   local distance = total == 1 and plot.slot or pitch
+  if plot.lies then return distance > chart.style.size and text or nil end
   return labels.every(widths, distance, chart.style.size / 4) == 1 and text or nil
 end
 
@@ -86,9 +94,14 @@ local function add_values(objects, chart, plot)
       local share = grown(chart, i)
       if value and share > 0 then
         local x, width = bar_place(chart, plot, i, k)
-        local y = plot.up(value * share) + (value < 0 and chart.cap + size / 2 or -size / 2)
-        objects[#objects + 1] = labels.text(text(value * share), chart.style,
-          { x + width / 2, y }, "centre"):fade(math.min(1, 3 * share))
+        local y, align = plot.up(value * share), "centre"
+        local at = { x + width / 2, y + (value < 0 and chart.cap + size / 2 or -size / 2) }
+        if plot.lies then
+          at = { y + (value < 0 and -size / 2 or size / 2), x + (width + chart.cap) / 2 }
+          align = value < 0 and "right" or "left"
+        end
+        objects[#objects + 1] = labels.text(text(value * share), chart.style, at, align)
+          :fade(math.min(1, 3 * share))
       end
     end
   end
@@ -96,7 +109,12 @@ end
 
 function marks.bar(chart, plot)
   local objects = {}
-  for k = 1, #chart.data.series do objects[#objects + 1] = bars_of(chart, plot, k) or nil end
+  local row = chart.highlight
+  for k = 1, #chart.data.series do
+    local pale = row and add_bars(objects, chart, plot, k, function(i) return i ~= row end)
+    if pale then objects[pale] = objects[pale]:fade(PALE) end
+    add_bars(objects, chart, plot, k, function(i) return not row or i == row end)
+  end
   if chart.values then add_values(objects, chart, plot) end
   return objects
 end

@@ -39,9 +39,14 @@ end
 --- The ticks of the values: { list =, texts =, low =, high =, width = }.
 local function values_axis(chart, height)
   local low, high, is_whole = range_of(chart)
+  high = math.max(high, chart.most or high)
   local most = math.floor(height / (3 * chart.style.size))
   local list, decimals, first, last = ticks.between(low, high,
     math.max(FEWEST, math.min(MOST, most)), is_whole)
+  if chart.most == high then
+    last = high
+    while #list > 1 and list[#list] > last do list[#list] = nil end
+  end
   local axis = { list = list, texts = {}, low = first, high = last, width = 0 }
   for i, value in ipairs(chart.has_labels and list or {}) do
     axis.texts[i] = chart.written(value, decimals)
@@ -118,6 +123,61 @@ local function thinned(chart, distance)
   return kept
 end
 
+local LEAST, TURN = 0.7, 50 -- of the size of the names of bars; degrees by which they are turned
+local SINE = math.sin(math.rad(TURN))
+
+--- Whether the names of bars have room beside each other.
+local function names_fit(chart, slot)
+  local before
+  if slot < chart.style.size then return false end
+  for i = 1, chart.data.count do
+    local width = labels.width(chart.data.name(i), chart.style)
+    if before and (before + width) / 2 + chart.style.size / 2 > slot then return false end
+    before = width
+  end
+  return true
+end
+
+--- How all names of bars are written where they have no room beside each other: smaller, or in
+--- several lines, or turned: { scale =, width =, turn =, height = }; nil: not even then.
+local function names_of(chart, slot)
+  local size, widest, word_widest, height = chart.style.size, 0, 0, 0
+  local room = slot - size / 2
+  if slot * SINE < LEAST * size then return nil end
+  for i = 1, chart.data.count do
+    widest = math.max(widest, labels.width(chart.data.name(i), chart.style))
+    for word in chart.data.name(i):gmatch "%S+" do
+      word_widest = math.max(word_widest, labels.width(word, chart.style))
+    end
+  end
+  if room >= LEAST * widest then return { scale = math.min(1, room / widest), height = size } end
+  if room >= LEAST * word_widest then
+    local way = { scale = math.min(1, room / word_widest), width = room }
+    for i = 1, chart.data.count do
+      local text = celspan.text { chart.data.name(i), font = chart.style.font,
+        size = way.scale * size, width = room }
+      height = math.max(height, text:metrics().height)
+    end
+    way.height = height
+    return way
+  end
+  local scale = math.min(1, slot * SINE / size)
+  return { scale = scale, turn = TURN, height = scale * (widest * SINE + size) }
+end
+
+--- The name of a bar below it, as names_of says.
+local function bar_name(chart, way, i, x, y)
+  local style = { chart.data.name(i), font = chart.style.font, size = way.scale * chart.style.size,
+                  texture = chart.style.texture, valign = "cap" }
+  if way.turn then
+    style.align = "right"
+    return celspan.text(style):rotate(-way.turn):translate(x, y)
+  end
+  style.align, style.width = "centre", way.width
+  style.at = { x - (way.width or 0) / 2, y }
+  return celspan.text(style)
+end
+
 --- The least distance between two rows in a width.
 local function least_distance(chart, width)
   local xs, least = chart.data.xs, math.huge
@@ -146,7 +206,13 @@ end
 --- What is written below the plot: { { at = row | x = number, text =, width = }, ... }.
 local function rows_axis(chart, width)
   if not chart.has_labels then return {} end
-  local kept = thinned(chart, least_distance(chart, width))
+  local distance = least_distance(chart, width)
+  local kept = thinned(chart, chart.kind == "bar" and names_fit(chart, distance) and math.huge
+    or distance)
+  if chart.kind == "bar" and #kept < chart.data.count then
+    native.warn(("chart: %d of %d names have no room: make the box wider, or lie = true")
+      :format(chart.data.count - #kept, chart.data.count))
+  end
   if chart.kind ~= "bar" and chart.data.xs and #kept < chart.data.count then
     return round_numbers(chart, width)
   end
@@ -190,10 +256,17 @@ end
 local function place(chart, axis, naming, above)
   local size, box = chart.style.size, chart.box
   local left, right = sides_of(chart, axis, naming)
+  local ways
+  if chart.kind == "bar" and chart.has_labels
+    and not names_fit(chart, (box[3] - left - right) / chart.data.count) then
+    local beside = axis.width + 0.8 * size
+    ways = names_of(chart, (box[3] - beside) / chart.data.count)
+    if ways then left, right = beside, 0 end
+  end
   local top = above + (chart.values and 1.4 * size or chart.has_labels and size / 2 or 0)
   local below = chart.values and axis.low < 0 and 1.4 * size or 0
-  local bottom = below + (chart.has_labels and 2 * size or 0)
-  local plot = { x = box[1] + left, y = box[2] + top, w = box[3] - left - right,
+  local bottom = below + (chart.has_labels and size + (ways and ways.height or size) or 0)
+  local plot = { ways = ways, x = box[1] + left, y = box[2] + top, w = box[3] - left - right,
                  h = box[4] - top - bottom, below = below }
   if plot.w <= 0 or plot.h <= 0 then
     native.refuse(("chart: a box of %.4g x %.4g has no room beside its labels: make it larger, or "
@@ -213,6 +286,10 @@ local function add_axes(objects, chart, plot, axis)
       { plot.x - 0.8 * size, y + chart.cap / 2 }, "right")
   end
   local box, y = chart.box, plot.y + plot.h + plot.below + 0.9 * size + chart.cap
+  for i = 1, plot.ways and chart.data.count or 0 do
+    objects[#objects + 1] = bar_name(chart, plot.ways, i, plot.at(i), y - chart.cap)
+  end
+  if plot.ways then return end
   for _, row in ipairs(rows_axis(chart, plot.w)) do
     local x, half = row.at and plot.at(row.at) or plot.along(row.x), row.width / 2
     local has_room = x - half >= box[1] and x + half <= box[1] + box[3]
@@ -233,6 +310,40 @@ function plots.make(chart, draw)
   if naming == "ends" then
     for _, object in ipairs(name_ends(chart, plot)) do objects[#objects + 1] = object end
   end
+  return celspan.union(objects)
+end
+
+--- The same with bars that lie: each name is beside its bar.
+---@return celspan.object
+function plots.lying(chart, draw)
+  local objects, above, size, box = {}, 0, chart.style.size, chart.box
+  if naming_of(chart) then objects, above = name_row(chart) end
+  local axis, widest, total = values_axis(chart, box[3]), 0, chart.data.count
+  for i = 1, chart.has_labels and total or 0 do
+    widest = math.max(widest, labels.width(chart.data.name(i), chart.style))
+  end
+  local slot = (box[4] - above - (chart.has_labels and 2 * size or 0)) / total
+  local scale = math.min(1, 0.4 * box[3] / math.max(widest, 1), slot / (1.1 * size))
+  local x = box[1] + (chart.has_labels and widest * scale + 0.8 * size or 0)
+  local right = math.max(chart.values and axis.width + size or 0, axis.width / 2)
+  local plot = { slot = slot, lies = true }
+  function plot.at(i) return box[2] + above + slot * (i - 0.5) end
+  function plot.up(value)
+    return x + (box[1] + box[3] - right - x) * (value - axis.low) / (axis.high - axis.low)
+  end
+  local style = { font = chart.style.font, size = scale * size, texture = chart.style.texture }
+  for i, value in ipairs(chart.axes and axis.list or {}) do
+    local thick, bottom = HAIR * size, box[2] + above + slot * total
+    objects[#objects + 1] = celspan.rect { plot.up(value) - thick / 2, box[2] + above, thick,
+      slot * total, texture = style.texture }:fade(value == 0 and FIRM or FAINT)
+    objects[#objects + 1] = axis.texts[i] and labels.text(axis.texts[i], chart.style,
+      { plot.up(value), bottom + 0.9 * size + chart.cap }, "centre")
+  end
+  for i = 1, chart.has_labels and total or 0 do
+    objects[#objects + 1] = labels.text(chart.data.name(i), style,
+      { x - 0.8 * size, plot.at(i) + scale * chart.cap / 2 }, "right")
+  end
+  for _, object in ipairs(draw(chart, plot)) do objects[#objects + 1] = object end
   return celspan.union(objects)
 end
 
