@@ -102,10 +102,10 @@ end
 
 --- A line with a texture along it and a width that changes: x of the texture goes from 0 to 1 along
 --- the line, y from -0.5 to 0.5 across it.
----@param options { d: string|celspan.path, width?: number, profile?: "round"|"even"|"ink"|"chisel"|fun(t: number): number, nib?: number, texture?: celspan.surface, from?: number, to?: number, within?: number, pieces?: integer }
+---@param options { d: string|celspan.path, width?: number, profile?: "round"|"even"|"ink"|"chisel"|fun(t: number): number, nib?: number, fill?: celspan.surface, from?: number, to?: number, within?: number, pieces?: integer }
 ---@return celspan.object
 function brush.line(options)
-  fields.check("brush", options, known)
+  options = fields.check("brush", options, known)
   local width, from, to = options.width or 1, options.from or 0, options.to or 1
   if options.d == nil then refuse "needs the field 'd', the path of the line" end
   fields.must(width > 0 and width < math.huge, "brush: field 'width'", "above 0", width)

@@ -44,6 +44,7 @@ local nodes = {
   min = 'a:blend "darken"', multiply = 'a:blend "multiply"', screen = 'a:blend "screen"',
   difference = 'a:blend "difference"', divide = 'b:blend "divide"',
   exclusion = 'a:blend "exclusion"',
+  wiggle = "motion.wiggle(seed):at(f.time)", time = "f.time, in the frame function",
 }
 
 --- The same for ways to merge whose names are words of their own elsewhere.

@@ -22,6 +22,7 @@ local down = { top = 0, centre = 0.5, bottom = 1 }
 --- The share that a word means. noun: the name of the function, for messages.
 local function share_of(noun, field, word, shares, default)
   local share = shares[word == nil and default or word]
+    or type(word) == "string" and shares[native.synonym(word)]
   if share then return share end
   local names = {}
   for name in pairs(shares) do names[#names + 1] = ("%q"):format(name) end
@@ -189,12 +190,13 @@ local function groups_of(letters, by)
     local is_new = by == "letter" or not open or open.line ~= letter.line
       or open.is_blank ~= is_blank
     if is_new then
-      open = { objects = {}, x = letter.x, y = letter.y, advance = 0, text = "",
-               line = letter.line, is_blank = is_blank }
+      open = native.as_letter { objects = {}, x = letter.x, y = letter.y, advance = 0, text = "",
+                                line = letter.line, is_blank = is_blank }
       groups[#groups + 1] = open
     end
     table.insert(open.objects, letter.object)
     open.text, open.advance = open.text .. letter.text, open.advance + letter.advance
+    open.middle = open.x + open.advance / 2
   end
   return groups
 end
@@ -203,14 +205,14 @@ end
 --- the line. left: the place of the text that lies at the start. Returns false if the group is
 --- beyond the ends.
 local function ride(group, curve, start, left)
-  local middle = group.x + group.advance / 2
+  local middle = group.middle
   local length = start * curve.length + middle - left
   if curve.is_closed then length = length % curve.length end
   if length < 0 or length > curve.length then return false end
   local x, y, dx, dy = curve:at(length)
   local degrees = math.deg(math.atan(dy, dx))
   group.object = group.object:translate(-middle, 0):rotate(degrees):translate(x, y)
-  group.x, group.y, group.degrees = x, y, degrees
+  group.x, group.y, group.middle, group.degrees = x, y, x, degrees
   return true
 end
 
@@ -237,7 +239,7 @@ function layout.letters(text, change, options)
     if not group.text:find(BLANK) then
       group.object = #group.objects == 1 and group.objects[1] or celspan.union(group.objects)
       group.objects, group.is_blank = nil, nil
-      if not curve or ride(group, curve, start, text.at and text.at[1] or 0) then
+      if not curve or ride(group, curve, start, text.at and text.at[1] or text[2] or 0) then
         shown[#shown + 1] = group
       end
     end

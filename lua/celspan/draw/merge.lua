@@ -38,7 +38,7 @@ local operators = { add = celspan.union, subtract = celspan.difference,
                     intersect = celspan.intersection, exclude = celspan.xor }
 
 local function read(objects, options)
-  fields.check("merge", options, { mode = "string", texture = "any" })
+  options = fields.check("merge", options, { mode = "string", texture = "any" })
   local mode = options.mode or "merge"
   if mode ~= "merge" and not operators[mode] then
     refuse("field 'mode' must be \"merge\", \"add\", \"subtract\", \"intersect\" or \"exclude\", "
@@ -52,24 +52,23 @@ local function read(objects, options)
       "merge: item %d must be an object", i)
     nodes[i] = collect(native.anatomy(objects[i], true), {})
   end
-  return mode, nodes
+  return mode, nodes, options.texture
 end
 
 --- Objects as one shape, with the texture of the first unless another is given.
 ---@param objects celspan.shape[]
----@param options? { mode?: "merge"|"add"|"subtract"|"intersect"|"exclude", texture?: celspan.surface }
+---@param options? { mode?: "merge"|"add"|"subtract"|"intersect"|"exclude", fill?: celspan.surface }
 ---@return celspan.object
 function merge.merged(objects, options)
-  local mode, nodes = read(objects, options or {})
+  local mode, nodes, texture = read(objects, options or {})
   local first, all = nil, {}
   for _, list in ipairs(nodes) do
     first = first or list[1]
     table.move(list, 1, #list, #all + 1, all)
   end
   if not first then return celspan.union {} end
-  local texture = options and options.texture
   if not texture and first.filled then
-    refuse "the first object is filled with a pattern; give the field 'texture'"
+    refuse "the first object is filled with a pattern; give the field 'fill'"
   end
   texture = texture or texture_of(first)
   if mode == "merge" then return join(all, texture) end

@@ -75,8 +75,7 @@ function operators.twist(object, degrees, options)
   check_number("twist: the angle", degrees)
   fields.must(math.abs(degrees) <= 360000, "twist: the angle", "from -360000 to 360000 degrees",
     degrees) -- a thousand turns
-  fields.check("twist", options or {}, { centre = "table" })
-  local centre = options and options.centre
+  local centre = fields.check("twist", options or {}, { centre = "table" }).centre
   if not centre then return native.twist(object, degrees) end
   fields.numbers("twist", "centre[%d]", centre, 2, "{x, y}")
   return native.twist(object, degrees, centre[1], centre[2])

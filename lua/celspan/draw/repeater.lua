@@ -97,7 +97,7 @@ end
 ---@return celspan.object
 function repeater.copies(object, options)
   fields.object("repeater", object)
-  fields.check("repeater", options, known)
+  options = fields.check("repeater", options, known)
   local count = fields.whole("repeater: field 'count'", options.count, 0, COUNT_MOST)
   local offset = options.offset or 0
   local matrix_at, copies = mover(options, offset), {}

@@ -28,8 +28,25 @@ local function check_round(name, round)
   return round or 0
 end
 
+--- { x, y, outer, inner } with its values as named fields.
+local function named(options)
+  local count = type(options) == "table" and rawlen(options) or 0
+  if count == 0 then return options end
+  if count < 3 or count > 4 then
+    native.refuse(("star: takes {x, y, outer [, inner]} by place, got %d values"):format(count))
+  end
+  local copy = { centre = { options[1], options[2] }, outer = options[3], inner = options[4] }
+  for name, value in next, options do
+    if copy[name] then
+      native.refuse(("star: field '%s' is given by its place, too: give it once"):format(name))
+    end
+    if type(name) == "string" then copy[name] = value end
+  end
+  return copy
+end
+
 local function read(options)
-  fields.check("star", options, known)
+  options = fields.check("star", named(options), known)
   fields.numbers("star", "centre[%d]", options.centre or { 0, 0 }, 2, "{x, y}")
   if options.outer == nil then native.refuse "star: needs the field 'outer', a radius" end
   local points = fields.whole("star: field 'points'", options.points or 5, 2, POINTS_MOST)
@@ -37,7 +54,7 @@ local function read(options)
   return { x = options.centre and options.centre[1] or 0,
            y = options.centre and options.centre[2] or 0,
            count = inner and 2 * points or points, points = points,
-           turn = (options.rotate or 0) % 360,
+           turn = (options.rotate or 0) % 360, texture = options.texture,
            radii = { [0] = check_radius("outer", options.outer), [1] = inner },
            rounds = { [0] = check_round("outer_round", options.outer_round),
                       [1] = check_round("inner_round", options.inner_round) } }
@@ -75,12 +92,12 @@ local function curved(s, texture)
 end
 
 --- A star, or without `inner` a regular polygon.
----@param options { centre?: celspan.point, points?: integer, outer: number, inner?: number, rotate?: number, outer_round?: number, inner_round?: number, texture?: celspan.surface }
+---@param options { [integer]: number, centre?: celspan.point, points?: integer, outer?: number, inner?: number, rotate?: number, outer_round?: number, inner_round?: number, fill?: celspan.surface } Also { x, y, outer, inner }
 ---@return celspan.object
 function star.outline(options)
   local s = read(options)
   local is_round = s.rounds[0] ~= 0 or s.radii[1] and s.rounds[1] ~= 0
-  return (is_round and curved or straight)(s, options.texture)
+  return (is_round and curved or straight)(s, s.texture)
 end
 
 return fields.seal("star", star)

@@ -242,7 +242,7 @@ end
 ---@param options { file: string, from?: number, to?: number, speed?: number, loop?: boolean, fps?: number, alpha?: "straight"|"premultiplied", colour?: string, layer?: string }
 ---@return celspan.footage
 function footage.open(options)
-  fields.check("footage", options, { file = "string", from = "number", to = "number",
+  options = fields.check("footage", options, { file = "string", from = "number", to = "number",
     speed = "number", loop = "boolean", fps = "number", alpha = "string", colour = "string",
     layer = "string" })
   check_words(options)

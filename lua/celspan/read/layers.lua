@@ -116,7 +116,7 @@ local function name_of(text, kind) return text ~= "" and text or kind end
 
 --- given: name, x, y, opacity, visible, blend; children, or picture (the fields of an image, with x
 --- and y), or neither for an empty layer; clipped, within: how the layers below cut it; mask: for a
---- group, an object through which it is visible. options: those of `read`.
+--- group, an object through which it is visible; pivot: of the object. options: those of `read`.
 local function make_entry(given, options)
   local source = { name = name_of(given.name, given.children and "group" or "layer"),
                    clipped = given.clipped, within = given.within, mask = given.mask,
@@ -130,7 +130,9 @@ local function make_entry(given, options)
   else
     object = given.object or celspan.union {}
   end
-  local entry = setmetatable({ name = given.name, object = object:named(source.name), x = given.x,
+  object = object:named(source.name)
+  if given.pivot then object = object:with { pivot = given.pivot } end
+  local entry = setmetatable({ name = given.name, object = object, x = given.x,
     y = given.y, opacity = given.opacity, visible = given.visible, blend = given.blend,
     children = given.children }, Entry)
   sources[entry] = source
@@ -361,12 +363,15 @@ end
 
 -- ---------------------------------------------------------------- changes
 
---- A copy of an entry with new contents: children, or an object.
-local function remade(entry, children, object)
+--- A copy of an entry with new contents: children, or an object; or with another pivot.
+local function remade(entry, children, object, pivot)
   local source = sources[entry]
+  if not pivot and getmetatable(object or entry.object) == "celspan.object" then
+    pivot = (object or entry.object).pivot
+  end
   return make_entry({ name = entry.name, x = entry.x, y = entry.y, opacity = entry.opacity,
     visible = entry.visible, blend = entry.blend, children = children, object = object,
-    clipped = source.clipped, within = source.within, mask = source.mask },
+    clipped = source.clipped, within = source.within, mask = source.mask, pivot = pivot },
     { space = source.space })
 end
 
@@ -381,7 +386,9 @@ local function changed_list(list, path, changes, done)
     done[here] = true
     local children = entry.children and changed_list(entry.children, here .. "/", changes, done)
     if children then entry = remade(entry, children) end
-    if change then
+    if type(change) == "table" then
+      entry = remade(entry, entry.children, entry.object, change.pivot)
+    elseif change then
       local object = change(entry.object)
       fields.expect_kind(object and pcall(celspan.union, { object }), object,
         "layers: the function of layer '%s' must return an object", here)
@@ -395,16 +402,21 @@ end
 
 --- The painting with layers replaced, inner ones first. Each function gets the object of the layer
 --- at its path, without opacity and blend mode, and returns another object. Opacities, modes,
---- clipping and the order of the layers are kept.
----@param changes table<string, fun(object: celspan.object): celspan.object>
+--- clipping and the order of the layers are kept. A table { pivot = } gives a layer the point that
+--- "pivot" means in later changes: { x, y }, or a place such as "top".
+---@param changes table<string, (fun(object: celspan.object): celspan.object)|{ pivot: celspan.point|string }>
 ---@return celspan.layers.tree
 function methods:with(changes)
   fields.self("layers", Tree, self, "with")
   fields.takes("layers: with", "table", "a table of functions by path", changes)
   for path, change in next, changes do
     self:get(path)
-    fields.expect_kind(type(change) == "function", change,
-      "layers: layer '%s' must have a function", path)
+    if type(change) == "table" then
+      fields.check(("layers: layer '%s'"):format(path), change, { pivot = "any" })
+    else
+      fields.expect_kind(type(change) == "function", change,
+        "layers: layer '%s' must have a function", path)
+    end
   end
   local list = changed_list(self, "", changes, {})
   return list and complete_tree(list, self.width, self.height, self.skipped, spaces[self])

@@ -7,6 +7,7 @@
 --   svg.read("glass.svg", { space = "linear" })   -- what is translucent mixes as light
 --   art:at(1.5)                     -- the whole, 1.5 seconds after its animations began
 --   art:with { arm = function(arm) return arm:rotate(20, 140, 90) end }
+--   art:with { arm = { pivot = { 140, 90 } } }     -- for arm:rotate(20, "pivot")
 --   art:show { mouth = "C", eyes = "open" }     -- of the parts "mouth A", "mouth B", ... only C
 --
 -- A file is read once and kept from frame to frame until it changes, so that frame functions may
@@ -31,7 +32,8 @@ local svg = {}
 ---@field parts table<string, celspan.object> By id, or by Inkscape label if only one element has it
 ---@field skipped celspan.svg.skipped[] The parts that were not drawn
 ---@field seconds? number How long it moves: up to the end of the last animation that ends, or the longest period where all repeat for ever
-local Art = fields.class("celspan.svg", "a drawing", { seconds = true, __move = true })
+local Art = fields.class("celspan.svg", "a drawing", { seconds = true, __move = true,
+                                                           __pivots = true })
 
 --- What moves a drawing that is being read to a time (mover.h); nil: returns how long it moves.
 --- What its documents say is kept: its own, and those of drawings that are images of it.
@@ -88,29 +90,67 @@ function Art:at(seconds)
   return drawing and drawing:object() or native.refuse("svg: " .. message)
 end
 
+local NUMBERED = "; it has none with a name: 'celspan info FILE --parts-picture parts.png' shows "
+  .. "the numbers of its elements, for with { [\"#7\"] = ... }"
+
+--- Refuses a name that no part has; `names` are those of all parts.
+local function check_part(art, name, names)
+  local is_known = type(name) == "string" and rawget(art.parts, name) ~= nil
+  if type(name) == "string" and name:find "^#%d+$" and not is_known then
+    for _, element in ipairs(art.__drawing:elements()) do
+      is_known = is_known or element.name == name
+    end
+  end
+  if not is_known then
+    native.refuse(("svg: the drawing has no part '%s'%s"):format(fields.key(name),
+      fields.hint(name, names) or #names == 0 and NUMBERED or ""))
+  end
+end
+
+--- The drawing with the pivots of its parts.
+local function pivoted(art, pivots)
+  if not next(pivots) then return art end
+  local copy, parts = { __pivots = pivots }, setmetatable({}, getmetatable(art.parts))
+  for name, part in next, art.parts do
+    parts[name] = pivots[name] and part:with { pivot = pivots[name] } or part
+  end
+  for field, value in next, art do copy[field] = copy[field] or value end
+  copy.parts = parts
+  return setmetatable(copy, Art)
+end
+
+--- A function that gives a part its pivot before its change, and notes where the change takes it.
+local function change_of(change, pivot, note)
+  return pivot and function(object)
+    local moved = change(object:with { pivot = pivot })
+    if getmetatable(moved) == "celspan.object" then note(moved.pivot) end
+    return moved
+  end or change
+end
+
 --- The drawing with parts replaced, inner parts first. Clips, opacity and order of their ancestors
---- are kept. A part that `use` shows is changed wherever it is visible.
----@param changes table<string, fun(object: celspan.object): celspan.object>
+--- are kept. A part that `use` shows is changed wherever it is visible. A table { pivot = } gives a
+--- part the point that "pivot" means in later changes: { x, y }, or a place such as "top".
+---@param changes table<string, (fun(object: celspan.object): celspan.object)|{ pivot: celspan.point|string }>
 ---@return celspan.svg.art
 function Art:with(changes)
   fields.self("svg", Art, self, "with")
   fields.takes("svg: with", "table", "a table of functions by part", changes)
-  local names, numbers = ordered.names(self.parts), nil
+  local names, functions, pivots = ordered.names(self.parts), {}, {}
+  for name, pivot in next, self.__pivots or {} do pivots[name] = pivot end
   for name, change in next, changes do
-    if not numbers and type(name) == "string" and name:find "^#%d+$" then
-      numbers = {}
-      for _, element in ipairs(self.__drawing:elements()) do numbers[element.name] = true end
+    check_part(self, name, names)
+    if type(change) == "table" and rawget(self.parts, name) then
+      fields.check(("svg: part '%s'"):format(name), change, { pivot = "any" })
+      pivots[name] = self.parts[name]:with { pivot = change.pivot }.pivot
+    else
+      fields.expect_kind(type(change) == "function", change,
+        "svg: part '%s' must have a function", name)
+      functions[name] = change_of(change, pivots[name], function(to) pivots[name] = to end)
     end
-    local is_known = type(name) == "string"
-      and (rawget(self.parts, name) ~= nil or numbers and numbers[name])
-    if not is_known then
-      native.refuse(("svg: the drawing has no part '%s'%s"):format(fields.key(name),
-        fields.hint(name, names) or ""))
-    end
-    fields.expect_kind(type(change) == "function", change,
-      "svg: part '%s' must have a function", name)
   end
-  return wrap(self.__drawing:with(changes))
+  if not next(functions) then return pivoted(self, pivots) end
+  return pivoted(wrap(self.__drawing:with(functions)), pivots)
 end
 
 ---@class celspan.svg.element

@@ -61,17 +61,16 @@ end
 -- ---------------------------------------------------------------- lights
 
 --- The given facts about the light: the kind of clue, a colour, and a patch.
-local function clue_of(options)
-  local estimate = options.estimate
+local function clue_of(options, estimate)
   if options.light then return clues.light, colour_of("light", options.light) end
-  if estimate == "grey" then return clues.grey, GREY end
+  if type(estimate) == "string" then return clues.grey, GREY end
   return clues.patch, colour_of("estimate.colour", estimate.colour or GREY),
     numbers_of("estimate.at", estimate.at, 4, "{x, y, w, h}")
 end
 
 --- The field of the light, and the same light as a value for `front`.
-local function find_light(picture, options)
-  local clue, colour, patch = clue_of(options)
+local function find_light(picture, options, estimate)
+  local clue, colour, patch = clue_of(options, estimate)
   local uneven = options.uneven
   if clue == clues.light and not uneven then return colour, colour end
   local blank = uneven and uneven ~= true and picture_of("uneven", uneven) or nil
@@ -95,13 +94,13 @@ local function from_picture(options)
     refuse "a picture needs its light or an estimate of it, but not both"
   end
   if type(estimate) == "table" then
-    fields.check("relight: estimate", estimate, { at = "any", colour = "any" })
-  elseif estimate ~= nil and estimate ~= "grey" then
+    estimate = fields.check("relight: estimate", estimate, { at = "any", colour = "any" })
+  elseif estimate ~= nil and (native.synonym(tostring(estimate)) or estimate) ~= "grey" then
     refuse('estimate must be "grey" or { at = {x, y, w, h}, colour = ... }, got %s',
       type(estimate) == "string" and ("%q"):format(estimate) or fields.kind(estimate))
   end
   local picture = picture_of("picture", options.picture)
-  local field, light = find_light(picture, options)
+  local field, light = find_light(picture, options, estimate)
   if not field then return nil, light end
   local texture, message = native.relight_picture(picture, field)
   return texture, texture and light or message

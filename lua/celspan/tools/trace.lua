@@ -51,8 +51,9 @@ local function whole(name, value, least, most)
     fields.shown(value))
 end
 
---- "#abc" as "#aabbcc".
+--- "#abc" as "#aabbcc", and the name of a colour likewise.
 local function whole_colour(text)
+  text = native.hex(text) or text
   local r, g, b = text:match "^#(%x)(%x)(%x)$"
   return r and ("#" .. r:rep(2) .. g:rep(2) .. b:rep(2)) or text:match "^#%x%x%x%x%x%x$"
 end
@@ -111,8 +112,7 @@ end
 ---@return string? message
 function trace.picture(path, options)
   fields.takes("trace: picture", "string", "a file name", path)
-  options = options == nil and {} or options
-  fields.check("trace: picture", options, known)
+  options = fields.check("trace: picture", options == nil and {} or options, known)
   local checked, refused = check(options)
   if not checked then native.refuse(refused) end
   local found, message = native.trace(native.find(path), checked)
