@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "lua/bind/form.h"
 #include "writers/apart/apart.h"
 #include "writers/parcels/plot.h"
 #include "writers/tiles/pyramid.h"
@@ -298,7 +299,7 @@ const cs_argument cs_argument_antialias = {
 static bool read_tint(const cs_argument *kind, const char *text, void *field) {
   celspan_paint paint;
   (void)kind;
-  if (!celspan_paint_parse(text, &paint) || paint.beta != 1)
+  if (!cs_form_colour(text, &paint) || paint.beta != 1)
     return false;
   memcpy(field, paint.pigment, 3 * sizeof *paint.pigment);
   return true;

@@ -213,6 +213,11 @@ static const cs_option INFO[] = {{"--parameters", NULL, NULL, "only the paramete
                                  SCRIPT,
                                  {0}};
 
+static const cs_option FONTS[] = {
+    JSON,
+    OPTION("--allow-system-fonts", NULL, NULL, "accepted, since the list always has those"),
+    {0}};
+
 static const cs_option CHECK[] = {
     FRAMES,
     {"--deep", NULL, NULL,
@@ -642,6 +647,11 @@ const cs_verb cs_verbs[] = {
               "several at a time. The exit code is 1 if a test failed, and 5 if busted is "
               "not installed.",
      .options = TEST},
+    {"fonts", "[SCRIPT]", 0, 1, .summary = "Lists the fonts that a film may read.",
+     .notes = "First those in the folder of the script, by default the current one, as a script "
+              "names them; then those of the system, which a script may read with "
+              "--allow-system-fonts.",
+     .options = FONTS},
     {"init", "NAME", 1, 1,
      .summary = "Creates a film of six seconds to start from: scripts, sound, spec, settings "
                 "for editors, README.",

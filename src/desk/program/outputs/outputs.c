@@ -392,7 +392,8 @@ cs_exit cs_output_refuse_early(celspan_context *context, const cs_request *reque
   cs_progress_style style = CS_PROGRESS_AUTO;
   cs_request_read(request, "--progress", &style);
   if (!path && !cs_request_has(request, "--hash"))
-    return cs_report_usage("-o is missing: give -o shot.####.png (or --hash for digests only)");
+    return cs_report_usage("-o is missing: give -o film.mp4 for a video, -o shot.####.png for "
+                           "pictures, or --hash for digests only");
   if (cs_request_has(request, "--force") && !cs_request_has(request, "--resume"))
     return cs_report_usage("--force needs --resume");
   CS_TRY_EXIT(refuse_dither(request));

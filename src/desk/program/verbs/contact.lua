@@ -72,7 +72,7 @@ local function make_sheet(script, output)
   local grid = program.numbers(request.grid or "6x4")
   local columns, panels, numbers = grid[1], grid[1] * grid[2], script:numbers()
   local every = math.tointeger(request.every) or (#numbers + panels - 1) // panels
-  numbers = thinned(numbers, every, not request.every and panels)
+  numbers = thinned(numbers, every, not (request.every and program.has_number(output)) and panels)
   local shown = #numbers
   if shown > panels and not program.has_number(output) then
     program.usage("%s: %d frames do not fit into a grid of %d x %d: give a larger --grid or "

@@ -171,9 +171,11 @@ end
 local SHOWN = 3
 
 local function put_recipe(out, recipe)
-  out:write(recipe.title, "\n\n", recipe.page, "\n\n", ("'celspan play %s.lua' shows it, and "
-    .. "'celspan render %s.lua -o %s.mp4' makes a video.\n"):format(recipe.name, recipe.name,
-    recipe.name))
+  local beside = recipe.page:find('require "stage.', 1, true)
+    and ", and copy the folder scripts/stage of celspan beside it" or ""
+  out:write(recipe.title, "\n\n", recipe.page, "\n\n", ("Save it as NAME.lua%s. 'celspan play "
+    .. "NAME.lua' shows it, and 'celspan render NAME.lua -o NAME.mp4' makes a video.\n")
+    :gsub("NAME", recipe.name):format(beside))
 end
 
 local function put_recipes(out, recipes)

@@ -12,7 +12,13 @@ local output = request.output
 program.refuse_render()
 program.is_stopped() -- from now on a signal ends no function, and the end is reported
 local script = program.script()
-script:lay_onion(script:view_size())
+local width, height = script:view_size()
+script:lay_onion(width, height)
+local w, h = table.unpack(script.size)
+if request.size and not request.fit and math.abs(width * h - height * w) >= math.max(w, h) then
+  program.note("the film, %gx%g, is stretched to %dx%d; --fit contain or --fit cover keeps its "
+    .. "shape", w, h, width, height)
+end
 local numbers = script:numbers(output)
 if #numbers == 0 then return program.note("task %d of %d has no frames", program.task()) end
 if request.cel then program.part("cels.lua", program, request, script, numbers) end

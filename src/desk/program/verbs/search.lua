@@ -5,16 +5,16 @@
 -- are listed where there are no others. Within each of the three a word counts 3 in the title, 2 in
 -- a keyword and 1 in the text, and of two entries that are equal the one whose title is the phrase
 -- to the letter comes first ("keys" before "key"), then the one with the shorter title. The phrase
--- is searched for as it is, and with each synonym in it replaced, which counts a tenth less. Words
--- are compared by their stems. A word that no entry has is read as the one with the nearest
--- spelling.
+-- is searched for as it is, and with each synonym in it replaced, which counts a tenth less, or a
+-- tenth more if it is the whole phrase and is_first. Words are compared by their stems. A word that
+-- no entry has is read as the one with the nearest spelling.
 local nearest, synonyms = ...
 
 -- weights that are greater than any number of words in a query
 local PHRASE, ALL, ANY = 30000, 20000, 10000
 local TITLE, KEYWORD, TEXT = 3, 2, 1
 local EXACT = 0.5
-local SYNONYM = 0.9
+local SYNONYM, FIRST = 0.9, 1.1
 
 local is_small = {} -- words that have no meaning for a search
 for word in ("a an and as by do for how i in is it my of on or the to with"):gmatch "%a+" do
@@ -110,10 +110,12 @@ local function alternatives(query, text)
   local list = { { stems = query, said = line_of(words_of(text)), weight = 1 } }
   for _, row in ipairs(synonyms) do
     local from, to = line:find(line_of(stems_of(row[1])), 1, true)
+    local is_first = row.is_first and line == line_of(stems_of(row[1]))
+      and text:lower():find(row[1], 1, true)
     for i = 2, from and #row or 0 do
       local replaced = line:sub(1, from) .. row[i] .. line:sub(to)
       list[#list + 1] = { stems = stems_of(replaced), said = line_of(words_of(replaced)),
-                          weight = SYNONYM }
+                          weight = is_first and FIRST or SYNONYM }
     end
   end
   return list

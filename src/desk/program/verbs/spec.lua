@@ -9,6 +9,7 @@
 --
 -- busted is found where Lua 5.4 looks for modules.
 local program, request = ...
+local native = require "celspan.native"
 
 local SCRIPT = 3 -- the exit code
 
@@ -87,6 +88,7 @@ end
 
 program.give_settings()
 program.default_signals()
+native.open_names()
 _G.arg = { [0] = "celspan test", "--ignore-lua", "--output=celspan", "--pattern=.", path }
 if only then table.insert(_G.arg, 1, "--filter=" .. only) end
 local good, trace = xpcall(function() require "busted.runner" { standalone = false } end,

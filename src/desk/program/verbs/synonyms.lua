@@ -1,6 +1,6 @@
 --- Words that people know from other programs, and the words of celspan's titles, keywords and
 --- names with the same or the nearest meaning: { theirs, ours, ... }. `celspan help` searches for
---- all.
+--- all. is_first: what they mean is found before titles that have the words by chance.
 return {
   -- another spelling
   { "color", "colour" }, { "gray", "grades" }, { "grey", "grades" }, { "center", "align" },
@@ -8,16 +8,21 @@ return {
   { "greenscreen", "green screen" },
 
   -- time
-  { "tween", "ease" }, { "inbetween", "ease", "morph" }, { "interpolation", "ease", "keys" },
+  { "tween", "ease" }, { "inbetween", "ease", "keys" }, { "interpolation", "ease", "keys" },
   { "keyframe", "keys" }, { "key", "keys", "keyer" }, { "motion blur", "shutter", "exposures" },
   { "shutter angle", "shutter" }, { "slow motion", "retime" }, { "speed ramp", "retime" },
   { "slowmo", "retime" }, { "time remap", "retime" }, { "speed", "retime" },
-  { "freeze frame", "retime" }, { "on twos", "the frame" }, { "frame rate", "film and frames" },
+  { "freeze frame", "retime" }, { "on twos", "frame twos", is_first = true },
+  { "on threes", "frame threes", is_first = true }, { "twos", "frame twos" },
+  { "frame rate", "film and frames" },
   { "fps", "film and frames" }, { "frame rate 29 97", "film and frames" },
   { "ntsc", "film and frames" }, { "resolution", "film and frames" },
   { "aspect ratio", "film and frames" }, { "ghost", "onion skin" }, { "timeline", "the cut" },
   { "edit", "the cut" }, { "dope sheet", "exposure sheets" }, { "xsheet", "exposure sheets" },
   { "expression", "easing keys paths" }, { "bounce", "ease", "squash" },
+  { "overshoot", "ease" }, { "anticipation", "ease", "squash" }, { "then", "motion times" },
+  { "one after another", "motion times", is_first = true }, { "clamp", "motion span" },
+  { "lerp", "keys", "mix" }, { "pop", "ease", "letters" },
   { "random", "noise", "wiggle" }, { "posterise time", "the frame" },
   { "posterize time", "the frame" }, { "trail", "echo" }, { "follow through", "what follows" },
 
@@ -27,10 +32,15 @@ return {
   { "run cycle", "walk" }, { "lip sync", "lips", "lip cels" }, { "lip", "lip cels" },
   { "mouth", "lip cels", "lips" }, { "phoneme", "lip cels" }, { "viseme", "lip cels" },
   { "rhubarb", "lip cels" }, { "physics", "what follows", "spring" }, { "hair", "what follows" },
+  { "pivot", "places" }, { "anchor", "places" }, { "anchor point", "places" },
+  { "registration", "track" }, { "peg", "track" }, { "peg hole", "track" },
+  { "flap", "drawings" }, { "wing", "drawings" }, { "roll", "rotate" },
+  { "person", "puppet person" }, { "parent", "group" }, { "null", "group" },
   { "puppet pin", "warp" }, { "mesh", "warp" }, { "deform", "warp", "bending" },
   { "turntable", "a head that turns" }, { "smart bone", "bones" }, { "switch", "lip cels", "show" },
   { "painted weight", "pictures that bend" }, { "feet", "a walk" }, { "foot", "a walk" },
-  { "feet that do not slide", "a walk" },
+  { "feet that do not slide", "a walk" }, { "flip", "scale" }, { "flying", "drawings" },
+  { "bird", "drawings" },
   { "tail", "what follows" }, { "scarf", "what follows" },
 
   -- light, colour and lenses
@@ -61,7 +71,9 @@ return {
   { "crop", "viewport" }, { "resize", "scale" }, { "rotation", "rotate" },
   { "position", "translate" }, { "move", "translate", "keys" }, { "pan", "camera" },
   { "ken burns", "camera" }, { "parallax scroll", "parallax" }, { "2.5d", "multiplane" },
-  { "depth sort", "multiplane" }, { "3d", "perspective" }, { "corner pin", "perspective" },
+  { "depth sort", "multiplane" }, { "dolly", "multiplane" }, { "evening", "day in a few seconds" },
+  { "instagram", "layout for every shape" }, { "9 16", "layout for every shape" },
+  { "3d", "perspective" }, { "corner pin", "perspective" },
   { "shake", "camera shake" },
   { "stabilize", "track" }, { "precomp", "composition inside another" },
   { "nested composition", "composition inside another" },
@@ -73,7 +85,8 @@ return {
   { "lattice", "warp" },
 
   -- shapes, words and particles
-  { "font", "text" }, { "typeface", "text" }, { "variable font", "text" },
+  { "font", "text" }, { "bold", "text" }, { "weight", "text" }, { "typeface", "text" },
+  { "text outline", "outline", is_first = true }, { "variable font", "text" },
   { "emoji", "glyphs", "text" }, { "kinetic typography", "letters" },
   { "text animation", "letters" }, { "text animator", "letters" }, { "caption", "subtitles" },
   { "trim path", "trim", "writing that appears" }, { "bezier", "path" },
@@ -110,7 +123,9 @@ return {
   { "codec", "videos" }, { "export", "output" }, { "looping gif", "videos" },
   { "psd", "layered paintings" }, { "photoshop", "layered paintings" },
   { "krita", "layered paintings" }, { "illustrator", "drawings" }, { "inkscape", "drawings" },
-  { "vectorize", "trace" }, { "vectorise", "trace" }, { "cleanup", "trace" }, { "scan", "trace" },
+  { "vectorize", "trace" }, { "vectorise", "trace" }, { "cleanup", "trace" },
+  { "scan", "scan to character", is_first = true },
+  { "paint bucket", "trace" }, { "flood fill", "trace" }, { "close gap", "trace" },
   { "audio", "sound" }, { "music", "sound" }, { "beat", "drawings that follow a sound" },
   { "amplitude", "drawings that follow a sound" }, { "spectrum", "drawings that follow a sound" },
   { "several sounds", "mix of sounds" }, { "scrub", "watch" }, { "paint fill", "trace" },

@@ -23,7 +23,7 @@ end
 for _, verb in ipairs(verbs) do is_verb[verb.name] = true end
 
 for page, heading, text in headings:gmatch "\n([^\t\n]*)\t([^\t]*)\t([^\n]*)" do
-  local is_name = page == "lua.md" and heading:find "^[%l]+[.:]" or heading:find "^Module "
+  local is_name = page:find "^lua" and heading:find "^[%l]+[.:]" or heading:find "^Module "
   if not is_name and not (page == "command-line.md" and is_verb[heading]) then
     text = plain(text)
     local title = plain(heading) .. (page == "c.md" and not heading:find "^C " and " in C" or "")

@@ -9,6 +9,8 @@
 local program = ...
 local files = require "celspan.files"
 local manual = require "celspan.manual"
+local ordered = require "celspan.ordered"
+local own_names = require "celspan.names"
 local tokens = program.part "tokens.lua"
 
 --- Values that are immutable: of these classes and of those that extend them.
@@ -216,10 +218,15 @@ local function settle(bindings, try)
   until not has_changed
 end
 
---- Names and the types of their values. First the types that can be found, because names depend on
---- others; then names that also have an unknown value are left out.
+--- Names and the types of their values: names of celspan, then the types that can be found, because
+--- names depend on others; then names that also have an unknown value are left out.
 local function types_of(list)
-  local types, bindings = {}, bindings_of(list)
+  local types, bindings, known, module_of = {}, bindings_of(list), own_names.list()
+  for _, name in ipairs(known) do
+    if not bindings[name] then
+      types[name] = { module = module_of[name], maker = not module_of[name] and "celspan." .. name }
+    end
+  end
   settle(bindings, function(name, of_name)
     if types[name] then return false end
     types[name] = common(list, types, of_name, false)
@@ -271,9 +278,19 @@ local function modules_of(list)
   return modules
 end
 
+--- Adds a sentence for each global of a text that hides a name of celspan.
+local function add_hiding(sentences, path, text)
+  local lines = own_names.assigned(text)
+  for _, name in ipairs(ordered.names(lines)) do
+    sentences[#sentences + 1] = ("%s:%d: the global '%s' hides celspan's %s in this file: make it "
+      .. "local, or give it another name"):format(path, lines[name], name, name)
+  end
+end
+
 --- Adds a sentence, with the file's path, for each value that a text does not use. Returns the
 --- modules that the text requires.
 local function add_dropped(sentences, path, text)
+  add_hiding(sentences, path, text)
   local list = tokens.of(text)
   local places = calls_of(list)
   if #places > 0 and not next(calls) then calls, parents = manual.types() end
@@ -300,8 +317,9 @@ local function add_file(sentences, folder, path, is_seen, text)
   end
 end
 
---- A sentence, with file and line, for each value that is not used in a script, or in modules
---- beside it that it requires. text: of the script, if it is not a file.
+--- A sentence, with file and line, for each value that is not used, and each global that hides a
+--- name, in a script, or in modules beside it that it requires. text: of the script, if it is not
+--- a file.
 function dropped.of_script(path, text)
   local sentences = {}
   if text and #text <= BYTES_MOST or program.has_ending(path, ".lua") then

@@ -1,6 +1,4 @@
 -- The cat: its key drawings, and the times at which one follows another.
-local celspan = require "celspan"
-local keys = require "celspan.keys"
 local when = require "timing"
 
 -- A part of a drawing is a line through points { x, y, width }; the paws are on 0, 0. The head has
@@ -73,18 +71,18 @@ local FROM, TO, HEIGHT = 230, 730, 165 -- where the leap begins and ends, and ho
 
 --- The place of the paws during the leap, from the ridge of the roof: a parabola.
 local function place(time)
-  local u = math.max(0, math.min(1, (time - when.leap) / (when.land - when.leap)))
+  local u = motion.span(time, when.leap, when.land - when.leap)
   return FROM + (TO - FROM) * u, -4 * HEIGHT * u * (1 - u)
 end
 
 local function line(points)
-  return celspan.stroke { points = points, degree = 3, cap = "round", join = "round" }
+  return stroke { points = points, degree = 3, cap = "round", join = "round" }
 end
 
-local face = celspan.ellipse { centre = { 0, 0 }, radii = { 37, 32 } }
-  | celspan.path { d = "M-31 -14 L-27 -58 L-2 -30 Z M4 -30 L24 -58 L32 -14 Z" }
-  | celspan.ellipse { centre = { 25, 12 }, radii = { 17, 13 } }
-local eye = celspan.ellipse { centre = { 16, -4 }, radii = { 5, 7 }, texture = "#ffe7a3" }
+local face = ellipse { 0, 0, 37, 32 }
+  | path { d = "M-31 -14 L-27 -58 L-2 -30 Z M4 -30 L24 -58 L32 -14 Z" }
+  | ellipse { 25, 12, 17, 13 }
+local eye = ellipse { 16, -4, 5, 7, fill = "#ffe7a3" }
 
 local cat = { reach = { (FROM + TO) / 2 + 136, -HEIGHT - 142 } } -- just in front of the paws
 

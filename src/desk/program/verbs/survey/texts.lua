@@ -336,8 +336,8 @@ function texts.judge(shown, seconds, add)
   local count = texts.words_in(shown.words)
   local needed = texts.needed(count)
   if count > 0 and seconds and seconds < needed - 1e-9 then
-    add("is shown for %.4g s; its %d word%s need %.4g s", seconds, count, count == 1 and "" or "s",
-      needed)
+    add("is shown for %.4g s; its %d %s %.4g s", seconds, count,
+      count == 1 and "word needs" or "words need", needed)
   end
 end
 
