@@ -64,10 +64,9 @@ int main(int count, char **arguments) {
     w.pixels = (unsigned char *)calloc((size_t)w.width * (size_t)w.height, 4);
   if (L && w.pixels && celspan_context_create(&desc, &context) == CELSPAN_OK) {
     luaL_openlibs(L);
-    if (celspan_lua_open(L, context) != CELSPAN_OK)
+    if (celspan_lua_open(L, context) != CELSPAN_OK ||
+        celspan_lua_run(L, arguments[1], 0, NULL) != CELSPAN_OK)
       fprintf(stderr, "host: %s\n", celspan_context_error(context));
-    else if (luaL_dofile(L, arguments[1]) != LUA_OK)
-      fprintf(stderr, "host: %s\n", lua_tostring(L, -1));
     else
       status = play(L, &w);
     lua_close(L); /* before its context */

@@ -1,6 +1,5 @@
 -- The four boolean operations on the same two objects, a ripple of rings and a flower: union,
 -- intersection, difference and exclusive-or. The rings themselves are an exclusive-or of discs.
-local celspan = require "celspan"
 
 local grounds = { "#15233f", "#f3e7cf", "#f0a23b", "#b93a3f" }
 
@@ -8,17 +7,16 @@ local grounds = { "#15233f", "#f3e7cf", "#f0a23b", "#b93a3f" }
 local function ripple(count, radius, texture)
   local discs = {}
   for i = 1, count do
-    discs[i] = celspan.circle { centre = { 0, 0 }, radius = radius * i / count, texture = texture }
+    discs[i] = circle { 0, 0, radius * i / count, fill = texture }
   end
-  return celspan.xor(discs)
+  return xor(discs)
 end
 
 local function flower(petals, radius, texture)
-  local petal = celspan.ellipse { centre = { 0, -radius * 0.56 },
-                                  radii = { radius * 0.27, radius * 0.46 }, texture = texture }
-  local list = { celspan.circle { centre = { 0, 0 }, radius = radius * 0.3, texture = texture } }
+  local petal = ellipse { 0, -radius * 0.56, radius * 0.27, radius * 0.46, fill = texture }
+  local list = { circle { 0, 0, radius * 0.3, fill = texture } }
   for i = 1, petals do list[i + 1] = petal:rotate(360 * i / petals) end
-  return celspan.union(list)
+  return union(list)
 end
 
 --- {colour of the rings, of the flower, the operation}
@@ -29,7 +27,7 @@ local operations = {
   { "#f9dfae", "#1d1a38", function(a, b) return a ~ b end },
 }
 
-return celspan.film { size = { 1920, 640 }, frames = 48, frame = function(f)
+return film { size = { 1920, 640 }, frames = 48, frame = function(f)
   local u = f.index / f.count
   local lift = 52 + 26 * math.sin(2 * math.pi * u)
   local art = {}
@@ -37,8 +35,8 @@ return celspan.film { size = { 1920, 640 }, frames = 48, frame = function(f)
     local rings = ripple(9, 204, operation[1]):translate(-18, lift)
     local petals = flower(8, 212, operation[2]):rotate(45 * u):translate(18, -lift)
     local object = operation[3](rings, petals)
-    art[#art + 1] = celspan.rect { (i - 1) * 480, 0, 480, 640, texture = grounds[i] }
+    art[#art + 1] = rect { (i - 1) * 480, 0, 480, 640, fill = grounds[i] }
     art[#art + 1] = object:translate((i - 0.5) * 480, 320)
   end
-  return celspan.rostrum { celspan.cel(art) }
+  return cel(art)
 end }

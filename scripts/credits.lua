@@ -1,6 +1,5 @@
 -- Rolling credits: two columns that meet in the middle, one right-aligned and one left-aligned,
 -- roll up the frame and fade at its edges. The text is made once; each frame only moves it.
-local celspan = require "celspan"
 
 local FPS = 24
 local WIDTH, HEIGHT = 960, 540
@@ -16,8 +15,8 @@ local credits = {
 
 --- One column: the text, and its number of lines.
 local function column(text, x, align, texture)
-  return celspan.text { text, font = FONT, size = SIZE, leading = LEADING, at = { x, 0 },
-    align = align, texture = texture, variations = { wght = align == "left" and 600 or 400 } }
+  return celspan.text { text, x, 0, font = FONT, size = SIZE, leading = LEADING,
+    align = align, fill = texture, variations = { wght = align == "left" and 600 or 400 } }
 end
 
 local roles, names = {}, {}
@@ -34,18 +33,18 @@ local _, top, _, height = roll:bounds()
 --- and text is still readable at a tenth of it, so most of the fading is near the edge.
 local dark = "#10151c"
 local function shade(from, to)
-  return celspan.rect { 0, math.min(from, to), WIDTH, math.abs(to - from),
-    texture = celspan.linear { from = { 0, from }, to = { 0, to }, { 0, dark },
+  return rect { 0, math.min(from, to), WIDTH, math.abs(to - from),
+    fill = linear { from = { 0, from }, to = { 0, to }, { 0, dark },
       { 0.25, dark .. "fa" }, { 0.55, dark .. "b0" }, { 1, dark .. "00" } } }
 end
-local shades = celspan.cel { shade(0, 120), shade(HEIGHT, HEIGHT - 120) }
-local ground = celspan.cel { celspan.rect { 0, 0, WIDTH, HEIGHT, texture = celspan.radial {
+local shades = cel { shade(0, 120), shade(HEIGHT, HEIGHT - 120) }
+local ground = cel { rect { 0, 0, WIDTH, HEIGHT, fill = radial {
   centre = { WIDTH / 2, HEIGHT / 2 }, radius = WIDTH / 2, { 0, "#1d2936" }, { 1, dark } } } }
 
-return celspan.film { title = "Rolling credits", size = { WIDTH, HEIGHT }, fps = FPS,
+return film { title = "Rolling credits", size = { WIDTH, HEIGHT }, fps = FPS,
   frames = 10 * FPS,
   frame = function(f)
     local from, to = HEIGHT - top, -top - height
     local rolled = roll:translate(0, from + (to - from) * f.progress)
-    return celspan.rostrum { ground, celspan.cel { rolled }, shades }
+    return { ground, rolled, shades }
   end }

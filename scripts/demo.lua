@@ -3,10 +3,6 @@
 -- Ten seconds in which evening falls: a slow pan over planes at different depths; front lights that
 -- dim from gold to dusk; a figure that walks and leaps, and whose lips follow a recorded line; and
 -- a second exposure for everything that glows, and for everything that the lantern lights.
-local celspan = require "celspan"
-local ease = require "celspan.ease"
-local keys = require "celspan.keys"
-local lips = require "celspan.lips"
 
 local character = require "demo.character"
 local flock = require "demo.flock"
@@ -34,12 +30,12 @@ thrown[1] = thrown[1] - travel_at(cue.throw / 10)
 --- A neutral light of this strength.
 local function grey(level) return { level, level, level } end
 
-return celspan.film { title = "The lamplighter", frames = 240, frame = function(f)
+return film { title = "The lamplighter", frames = 240, frame = function(f)
   local time = f.middle
   local travel, flash = travel_at(f.progress), spark.flash(time - cue.stars)
   local function window(depth) return { travel * depth, 0, f.width, f.height } end
   local function plane(name, depth, front, ...)
-    return celspan.cel { celspan.union { ... }, front = front,
+    return cel { union { ... }, front = front,
       viewport = window(depth) }:named(name)
   end
   local function light(distance)
@@ -51,9 +47,9 @@ return celspan.film { title = "The lamplighter", frames = 240, frame = function(
   local flame = lamp:at(time)
   local name = title.write("celspan", (time - cue.title) / 1.5, "#ffeccb")
   local halo, disc = sky.sun(time)
-  local meadow = celspan.union { landscape.meadow, landscape.branch }
+  local meadow = union { landscape.meadow, landscape.branch }
 
-  local painted = celspan.rostrum {
+  local painted = rostrum {
     sky.air(time):named "air", sky.stars(time, cue.stars, BURST):named "stars",
     halo:named "halo", disc:named "sun", sky.clouds(time):named "clouds",
     flock.draw(time, -150 + 330 * time, 330 - 22 * time):named "birds",
@@ -68,7 +64,7 @@ return celspan.film { title = "The lamplighter", frames = 240, frame = function(
     plane("flame", 1, grey(0.5 + flame), glass),
     plane("lantern", 1, light "figure", frame),
     plane("meadow", 1.5, light "near", meadow),
-    celspan.cel { name:translate(330, 330), front = grey(1.2) }:named "title",
+    cel { name:translate(330, 330), front = grey(1.2) }:named "title",
   }
   if flame == 0 then return painted end
 
@@ -79,7 +75,7 @@ return celspan.film { title = "The lamplighter", frames = 240, frame = function(
     lantern.gain = gain * flame
     return plane(label, 1, lantern, art)
   end
-  local lit = celspan.rostrum {
+  local lit = rostrum {
     gels:named "gels", card:named "card", halos:named "halos",
     lamplit("ground", 1.5, landscape.ground), lamplit("lamplighter", 1.7, figure),
     plane("flame", 1, grey(0), glass), lamplit("lantern", 1, frame),

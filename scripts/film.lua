@@ -7,8 +7,6 @@
 -- This script is the edit: when each shot is shown, and how it dissolves into the next. The action
 -- of a shot is in film/shots/, with the set and the figure beside it, and film/timing.lua has the
 -- times for all of them.
-local celspan = require "celspan"
-local ease = require "celspan.ease"
 local timing = require "film.timing"
 
 local sound = ...
@@ -27,15 +25,15 @@ local function share_of(i, time)
   local before, shot, after = shots[i - 1], shots[i], shots[i + 1]
   local share = 1
   if before and time < before.to then
-    share = fading(timing.share(time, shot.from, before.to - shot.from))
+    share = fading(motion.span(time, shot.from, before.to - shot.from))
   end
   if after and time >= after.from then
-    share = share * (1 - fading(timing.share(time, after.from, shot.to - after.from)))
+    share = share * (1 - fading(motion.span(time, after.from, shot.to - after.from)))
   end
   return share
 end
 
-return celspan.film { title = "Little One", fps = timing.fps, duration = timing.seconds,
+return film { title = "Little One", fps = timing.fps, duration = timing.seconds,
   sound = sound,
   frame = function(f)
     local exposures = {}

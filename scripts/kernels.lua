@@ -1,6 +1,5 @@
 -- The same edge through every kernel: straight and slanted, a curve, a hairline and a fan.
 -- The frame is small: enlarged, its pixels show what a kernel does.
-local celspan = require "celspan"
 
 local KERNELS = {
   { name = "none", antialias = "none" },
@@ -18,24 +17,24 @@ local ink, teal = "#1f2a44", "#2a7f83"
 local function fan(x, y, length)
   local rays = {}
   for i = 0, 11 do
-    local ray = celspan.polygon { { 0, 0 }, { length, -0.6 }, { length, 0.6 }, texture = ink }
+    local ray = polygon { { 0, 0 }, { length, -0.6 }, { length, 0.6 }, fill = ink }
     rays[#rays + 1] = ray:rotate(i * 7.5):translate(x, y)
   end
-  return celspan.union(rays)
+  return union(rays)
 end
 
-local art = celspan.cel {
-  celspan.rect { 6, -10, 14, 100, texture = teal }:rotate(8, 12, 20),
-  celspan.circle { centre = { 38, 15 }, radius = 9.3, texture = ink },
-  celspan.circle { centre = { 40, 13 }, radius = 4.1, texture = "#f2b134" },
-  celspan.triangle { { 30, 39 }, { 47, 37 }, { 40, 27 }, texture = "#e4572e" },
+local art = cel {
+  rect { 6, -10, 14, 100, fill = teal }:rotate(8, 12, 20),
+  circle { 38, 15, 9.3, fill = ink },
+  circle { 40, 13, 4.1, fill = "#f2b134" },
+  triangle { { 30, 39 }, { 47, 37 }, { 40, 27 }, fill = "#e4572e" },
   fan(52, 4, 34),
 }
 
 -- One still per kernel: --frames selects one.
-return celspan.film {
+return film {
   title = "Kernels", size = { 96, 40 }, fps = 1, frames = #KERNELS,
   frame = function(f)
-    return celspan.rostrum { art, back = "#f6ebd3", antialias = KERNELS[f.index + 1].antialias }
+    return { art, back = "#f6ebd3", antialias = KERNELS[f.index + 1].antialias }
   end,
 }

@@ -1,9 +1,6 @@
 -- Layers: a painting of many layers under the multiplane camera. The painter's groups become planes
 -- at different depths; a dolly and a pan separate them, and the focus moves from near to far.
-local celspan = require "celspan"
-local ease = require "celspan.ease"
 local layers = require "celspan.layers"
-local multiplane = require "celspan.multiplane"
 
 local tree = assert(layers.read "paintings/valley.ora")
 
@@ -12,7 +9,7 @@ local depths = { { "sky", 2600 }, { "sun", 2600 }, { "glow", 2600 }, { "far", 18
   { "hills", 1100 },
                  { "wood", 500 }, { "near", 0 } }
 
-return celspan.film { frames = 48, frame = function(f)
+return film { frames = 48, frame = function(f)
   local scale = 1.1 * f.height / tree.height -- edges that are out of focus lie beyond the frame
   local move = ease "inOutSine"(f.progress) -- a camera has weight: it starts and stops slowly
   local left, top = (tree.width * scale - f.width) / 2, (tree.height * scale - f.height) / 2

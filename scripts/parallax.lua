@@ -1,6 +1,5 @@
 -- Parallax: a wood in the morning mist, five planes of trunks. One pan moves every plane by its own
 -- depth, and each farther plane is paler, as if there were more air in front of it.
-local celspan = require "celspan"
 local shapes = require "demo.shapes"
 
 --- {depth 0..1, trunks, width, colour at the top, colour at the foot}
@@ -43,25 +42,25 @@ local function wood(n, plane)
     crest[i + 1] = { -100 + i * length / 11, 800 + n * 45 + 26 * math.sin(i * 1.3 + n * 2) }
   end
   parts[#parts + 1] = shapes.ridge(crest, 1160)
-  local mist = celspan.rect { -200, -100, length + 400, 1300,
-                              texture = shapes.down(100, 1040, { top, foot }) }
-  return celspan.clip(mist, celspan.union(parts))
+  local mist = rect { -200, -100, length + 400, 1300,
+                      fill = shapes.down(100, 1040, { top, foot }) }
+  return clip(mist, union(parts))
 end
 
 local woods = {}
 for n, plane in ipairs(planes) do woods[n] = wood(n, plane) end
 
-local glow = celspan.radial { centre = { 1180, 420 }, radius = 1150, { 0, "#fffbe6" },
-                              { 0.25, "#fdeec2" },
-                              { 0.6, "#dfe3c5" }, { 1, "#bfd2c4" } }
-local air = celspan.rect { 0, 0, 1920, 1080, texture = glow }
-local sun = celspan.circle { centre = { 1180, 420 }, radius = 96, texture = "#fffdf2" }
+local glow = radial { centre = { 1180, 420 }, radius = 1150, { 0, "#fffbe6" },
+                      { 0.25, "#fdeec2" },
+                      { 0.6, "#dfe3c5" }, { 1, "#bfd2c4" } }
+local air = rect { 0, 0, 1920, 1080, fill = glow }
+local sun = circle { 1180, 420, 96, fill = "#fffdf2" }
 
-return celspan.film { frames = 48, frame = function(f)
-  local cels = { celspan.cel { air, sun } }
+return film { frames = 48, frame = function(f)
+  local cels = { cel { air, sun } }
   for n, plane in ipairs(planes) do
     local travel = 560 * f.progress * plane[1]
-    cels[n + 1] = celspan.cel { woods[n], viewport = { travel, 0, f.width, f.height } }
+    cels[n + 1] = cel { woods[n], viewport = { travel, 0, f.width, f.height } }
   end
-  return celspan.rostrum(cels)
+  return rostrum(cels)
 end }

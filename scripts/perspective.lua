@@ -1,6 +1,5 @@
 -- A gallery in one-point perspective: floor, walls and pictures are flat drawings, each carried to
 -- its place by quad(), which maps four corners to four others. The camera walks in.
-local celspan = require "celspan"
 local shapes = require "demo.shapes"
 
 local deep = 9 -- metres from the first picture to the far wall
@@ -17,36 +16,36 @@ local function hang(art, w, h, corners, camera)
 end
 
 local function chequers(columns, rows, dark, light)
-  local parts = { celspan.rect { 0, 0, columns, rows, texture = light } }
+  local parts = { rect { 0, 0, columns, rows, fill = light } }
   for i = 0, columns * rows - 1 do
     local x, y = i % columns, i // columns
-    if (x + y) % 2 == 0 then parts[#parts + 1] = celspan.rect { x, y, 1, 1, texture = dark } end
+    if (x + y) % 2 == 0 then parts[#parts + 1] = rect { x, y, 1, 1, fill = dark } end
   end
-  return celspan.union(parts)
+  return union(parts)
 end
 
 --- An abstract in a frame, 100 by 130.
 local function painting(n)
   local inks = { "#d1495b", "#edae49", "#00798c", "#30638e", "#f4e3c1", "#3d2645" }
   local function ink(k) return inks[(n * 2 + k) % #inks + 1] end
-  local field = celspan.rect { 8, 8, 84, 114, texture = ink(0) }
-  local art = celspan.union {
-    celspan.circle { centre = { 30 + n * 17 % 40, 44 }, radius = 26, texture = ink(1) },
-    celspan.ellipse { centre = { 60 - n * 11 % 30, 122 }, radii = { 62, 44 - n * 7 % 20 },
-                      texture = ink(2) },
-    celspan.rect { 20 + n * 23 % 40, 8, 9, 114, texture = ink(3) },
+  local field = rect { 8, 8, 84, 114, fill = ink(0) }
+  local art = union {
+    circle { 30 + n * 17 % 40, 44, 26, fill = ink(1) },
+    ellipse { 60 - n * 11 % 30, 122, 62, 44 - n * 7 % 20,
+              fill = ink(2) },
+    rect { 20 + n * 23 % 40, 8, 9, 114, fill = ink(3) },
   }
-  return celspan.union { celspan.rect { 0, 0, 100, 130, texture = "#c8a25c" },
-                         celspan.rect { 4, 4, 92, 122, texture = "#fbf4e4" },
-                         field, celspan.clip(art, field) }
+  return union { rect { 0, 0, 100, 130, fill = "#c8a25c" },
+                 rect { 4, 4, 92, 122, fill = "#fbf4e4" },
+                 field, clip(art, field) }
 end
 
 local room = {
   floor = chequers(6, 28, "#4b2e3a", "#e6cfae"),
-  wall = celspan.rect { 0, 0, 100, 100, texture = shapes.across(0, 100, { "#f2d9b0", "#6f8f8c" }) },
-  ceiling = celspan.rect { 0, 0, 100, 100,
-                           texture = shapes.down(0, 100, { "#5b7f80", "#fbeccb" }) },
-  far = celspan.rect { 0, 0, 100, 100, texture = "#3f6f73" },
+  wall = rect { 0, 0, 100, 100, fill = shapes.across(0, 100, { "#f2d9b0", "#6f8f8c" }) },
+  ceiling = rect { 0, 0, 100, 100,
+                   fill = shapes.down(0, 100, { "#5b7f80", "#fbeccb" }) },
+  far = rect { 0, 0, 100, 100, fill = "#3f6f73" },
 }
 
 --- Corners of an upright rectangle, from the upper left: from (x0, z0) to (x1, z1) on the plan.
@@ -60,7 +59,7 @@ local function level(y, z0, z1)
   return { { -w, y, z0 }, { w, y, z0 }, { w, y, z1 }, { -w, y, z1 } }
 end
 
-return celspan.film { frames = 48, frame = function(f)
+return film { frames = 48, frame = function(f)
   local w = half_width
   local camera = -1.7 + 1.9 * f.progress
   local near, back = camera + 0.3, deep + 0.6
@@ -77,5 +76,5 @@ return celspan.film { frames = 48, frame = function(f)
     art[#art + 1] = hang(painting(i), 100, 130, upright(-w, z, -w, z + 1, 1.1, 2.6), camera)
     art[#art + 1] = hang(painting(i + 7), 100, 130, upright(w, z + 1, w, z, 1.1, 2.6), camera)
   end
-  return celspan.rostrum { celspan.cel(art) }
+  return cel(art)
 end }

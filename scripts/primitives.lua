@@ -1,6 +1,5 @@
 -- The eight primitives, one per tile: rectangle, triangle, circle, ellipse, polygon, NURBS, path
 -- and scan-line procedure. Each is one value, turned and scaled by methods that return new values.
-local celspan = require "celspan"
 
 local ink, cream, coral, teal, gold = "#1f2a44", "#f6ead2", "#e4572e", "#2a7f83", "#f2b134"
 
@@ -11,40 +10,40 @@ local function star(corners, outer, inner)
     local r, a = i % 2 == 0 and outer or inner, math.pi * i / corners
     points[#points + 1] = { r * math.sin(a), -r * math.cos(a) }
   end
-  return celspan.polygon(points)
+  return polygon(points)
 end
 
 --- A disc of stripes, described row by row; the two paints at its ends make a gradient.
 local function blinds(y)
   local half = math.sqrt(math.max(0, 150 * 150 - y * y))
   if y // 20 % 2 == 0 or half == 0 then return {} end
-  return { { -half, half, celspan.rgb(0.77, 0.09, 0.03), celspan.rgb(0.014, 0.023, 0.058) } }
+  return { { -half, half, rgb(0.77, 0.09, 0.03), rgb(0.014, 0.023, 0.058) } }
 end
 
 --- {ground, the shape around (0, 0), how far it turns in the loop}
 local tiles = {
-  { cream, celspan.rect { -120, -120, 240, 240, radius = 46, texture = teal }, 90 },
-  { gold, celspan.triangle { { 0, -150 }, { 140, 95 }, { -140, 95 }, texture = ink }, 120 },
-  { teal, celspan.circle { centre = { 0, 0 }, radius = 140, texture = cream }, 0 },
-  { ink, celspan.ellipse { centre = { 0, 0 }, radii = { 160, 84 }, texture = gold }, 180 },
+  { cream, rect { -120, -120, 240, 240, radius = 46, fill = teal }, 90 },
+  { gold, triangle { { 0, -150 }, { 140, 95 }, { -140, 95 }, fill = ink }, 120 },
+  { teal, circle { 0, 0, 140, fill = cream }, 0 },
+  { ink, ellipse { 0, 0, 160, 84, fill = gold }, 180 },
   { ink, star(9, 165, 96), 40 },
-  { cream, celspan.nurbs { texture = ink, points = {
+  { cream, nurbs { fill = ink, points = {
     { 0, -210 }, { 150, -160 }, { 40, 0 }, { 210, 90 }, { 20, 190 }, { -60, 90 }, { -220, 120 },
     { -110, -60 } } }, 360 },
-  { coral, celspan.path { texture = cream,
-                          d = "M0 160C-260 -20 -150 -170 0 -70C150 -170 260 -20 0 160Z" }, 0 },
-  { gold, celspan.scanline { bounds = { -150, -150, 300, 300 }, spans = blinds }, 0 },
+  { coral, path { fill = cream,
+                  d = "M0 160C-260 -20 -150 -170 0 -70C150 -170 260 -20 0 160Z" }, 0 },
+  { gold, scanline { bounds = { -150, -150, 300, 300 }, spans = blinds }, 0 },
 }
 
-return celspan.film { size = { 1920, 960 }, frames = 48, frame = function(f)
+return film { size = { 1920, 960 }, frames = 48, frame = function(f)
   local u = f.index / f.count
   local beat = 1 + 0.07 * math.sin(2 * math.pi * u)
   local art = {}
   for i, tile in ipairs(tiles) do
     local x, y = (i - 1) % 4 * 480, (i - 1) // 4 * 480
-    art[#art + 1] = celspan.rect { x, y, 480, 480, texture = tile[1] }
+    art[#art + 1] = rect { x, y, 480, 480, fill = tile[1] }
     art[#art + 1] = tile[2]:rotate(tile[3] * u):scale(tile[3] == 0 and i < 8 and beat or 1)
       :translate(x + 240, y + 240)
   end
-  return celspan.rostrum { celspan.cel(art) }
+  return cel(art)
 end }

@@ -1,20 +1,17 @@
 -- Focus pulled through a multiplane set: a lamp near the camera, a house, far hills and stars.
-local celspan = require "celspan"
-local multiplane = require "celspan.multiplane"
-local keys = require "celspan.keys"
 
 local WIDTH, HEIGHT, FOCAL = 960, 400, 1000
 -- Depths, film units away from the camera's plane.
 local LAMP, HOUSE, HILLS, SKY = 0, 900, 2600, 5200
 
 local function disc(x, y, radius, texture)
-  return celspan.circle { centre = { x, y }, radius = radius, texture = texture }
+  return circle { x, y, radius, fill = texture }
 end
 
 -- A plane's art is drawn about the film's centre, enlarged to make up for its distance.
 local function at_depth(z, art)
   local scale = (FOCAL + z) / FOCAL
-  return celspan.cel { art:translate(-WIDTH / 2, -HEIGHT / 2):scale(scale)
+  return cel { art:translate(-WIDTH / 2, -HEIGHT / 2):scale(scale)
     :translate(WIDTH / 2, HEIGHT / 2) }
 end
 
@@ -24,40 +21,40 @@ local function sky()
     local x, y = (i * 377) % WIDTH, (i * i * 53) % 260
     stars[i] = disc(x, y, 0.8 + (i % 5) * 0.3, "#fff6d8")
   end
-  local dusk = celspan.linear { from = { 0, 0 }, to = { 0, HEIGHT },
+  local dusk = linear { from = { 0, 0 }, to = { 0, HEIGHT },
     { 0, "#0c1838" }, { 0.7, "#6a4a78" }, { 1, "#f08a5c" } }
-  return celspan.rect { -200, -200, WIDTH + 400, HEIGHT + 400, texture = dusk }
-    | celspan.union(stars) | disc(690, 90, 26, "#fff0c0")
+  return rect { -200, -200, WIDTH + 400, HEIGHT + 400, fill = dusk }
+    | union(stars) | disc(690, 90, 26, "#fff0c0")
 end
 
 local function hills()
-  return celspan.path {
+  return path {
     d = "M-300 330 C 60 120 240 180 400 290 S 760 120 1260 310 L1260 700 L-300 700 Z",
-      texture = "#2c2a52" }
-    | celspan.path {
+      fill = "#2c2a52" }
+    | path {
       d = "M-300 360 C 100 300 300 350 520 330 S 980 260 1260 350 L1260 700 L-300 700 Z",
-      texture = "#1d2244" }
+      fill = "#1d2244" }
 end
 
 local function house()
   local panes = {}
   for i = 0, 5 do
-    panes[#panes + 1] = celspan.rect { 338 + i % 3 * 62, 218 + i // 3 * 60, 34, 38,
-      texture = "#ffd070" }
+    panes[#panes + 1] = rect { 338 + i % 3 * 62, 218 + i // 3 * 60, 34, 38,
+      fill = "#ffd070" }
   end
-  return celspan.rect { 310, 190, 214, 240, texture = "#3a2030" }
-    | celspan.polygon { { 288, 194 }, { 417, 110 }, { 546, 194 }, texture = "#5c2c34" }
-    | celspan.union(panes)
-    | celspan.rect { -300, 384, 1560, 300, texture = "#141a2a" }
+  return rect { 310, 190, 214, 240, fill = "#3a2030" }
+    | polygon { { 288, 194 }, { 417, 110 }, { 546, 194 }, fill = "#5c2c34" }
+    | union(panes)
+    | rect { -300, 384, 1560, 300, fill = "#141a2a" }
 end
 
 local function lamp()
-  return celspan.rect { 754, 130, 14, 400, texture = "#10131c" }
-    | celspan.path { d = "M724 130 L798 130 L784 60 L738 60 Z", texture = "#ffe9a8" }
-    | celspan.path { d = "M726 60 L796 60 L761 34 Z", texture = "#10131c" }
-    | celspan.polygon { { 100, 480 }, { 20, 250 }, { 60, 330 }, { 70, 190 }, { 110, 320 },
+  return rect { 754, 130, 14, 400, fill = "#10131c" }
+    | path { d = "M724 130 L798 130 L784 60 L738 60 Z", fill = "#ffe9a8" }
+    | path { d = "M726 60 L796 60 L761 34 Z", fill = "#10131c" }
+    | polygon { { 100, 480 }, { 20, 250 }, { 60, 330 }, { 70, 190 }, { 110, 320 },
       { 150, 210 },
-      { 150, 330 }, { 190, 270 }, { 160, 480 }, texture = "#0d1a14" }
+      { 150, 330 }, { 190, 270 }, { 160, 480 }, fill = "#0d1a14" }
 end
 
 local planes = {
@@ -73,7 +70,7 @@ local focus = keys {
   { 2.6, FOCAL + HOUSE }, { 4, FOCAL + SKY, "inOutCubic" },
 }
 
-return celspan.film {
+return film {
   title = "Rack focus", size = { WIDTH, HEIGHT }, fps = 24, duration = 4.5,
   frame = function(f)
     local set = { film = { WIDTH, HEIGHT }, camera = { x = 20 * f.progress, y = 0, z = 0 },

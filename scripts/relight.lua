@@ -2,8 +2,6 @@
 -- The picture is drawn by a script, as a photograph would be taken at noon. A photograph of yours,
 -- and its light, may be given after --:
 --   celspan render scripts/relight.lua -o dusk.mp4 -- photo.jpg "#fff4e0"
-local celspan = require "celspan"
-local keys = require "celspan.keys"
 local photo = require "relight.photo"
 local relight = require "celspan.relight"
 
@@ -11,8 +9,8 @@ local file, noon = ...
 local picture = file and celspan.picture { file = file } or photo.take()
 local bare = assert(relight.from { picture = picture,
   light = noon or file and "#fffaf0" or photo.light })
-local frame = file and celspan.image { file = file }
-  or celspan.rect { 0, 0, photo.width, photo.height }
+local frame = file and image { file = file }
+  or rect { 0, 0, photo.width, photo.height }
 local _, _, width, height = frame:bounds()
 
 --- The light of the sky, from the right, and that of the sun, from the left, by the progress of the
@@ -28,14 +26,14 @@ local function daylight(u)
   local from, to, most = sun:at(u), sky:at(u), 0
   for c = 1, 3 do most = math.max(most, from[c], to[c]) end
   local function share(light)
-    return celspan.rgb(light[1] / most, light[2] / most, light[3] / most)
+    return rgb(light[1] / most, light[2] / most, light[3] / most)
   end
-  return { gain = most, texture = celspan.linear { from = { 0, height }, to = { width, 0 },
+  return { gain = most, texture = linear { from = { 0, height }, to = { width, 0 },
     { 0, share(from) }, { 1, share(to) } } }
 end
 
-return celspan.film { title = "From noon to dusk", size = { width, height }, fps = 24, frames = 120,
+return film { title = "From noon to dusk", size = { width, height }, fps = 24, frames = 120,
   frame = function(f)
-    return celspan.rostrum { celspan.cel { front = daylight(f.progress),
-      celspan.rect { 0, 0, width, height, texture = bare } } }
+    return cel { front = daylight(f.progress),
+      rect { 0, 0, width, height, fill = bare } }
   end }

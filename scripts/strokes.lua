@@ -1,6 +1,4 @@
 -- Lines: a brush that feels pressure, loops that draw themselves, and a road whose dashes march.
-local celspan = require "celspan"
-local ease = require "celspan.ease"
 
 local paper, ink, clay, sky = "#f6ead2", "#1f2a44", "#c8553d", "#2a7f83"
 
@@ -12,7 +10,7 @@ local function brush(u)
     points[#points + 1] = { 160 + 130 * i, 250 + 90 * math.sin(1.1 * i + 2 * math.pi * u),
       6 + 66 * press }
   end
-  return celspan.stroke { points = points, degree = 3, cap = "round", texture = ink }
+  return stroke { points = points, degree = 3, cap = "round", fill = ink }
 end
 
 --- Loops as in a warm-up exercise for the wrist, small at both ends, and a flourish.
@@ -27,22 +25,22 @@ table.move({ { 1600, 668 }, { 1680, 655 }, { 1760, 590 } }, 1, 3, #loops + 1, lo
 
 --- A line that draws itself: `to` grows, and the taper keeps the tip fine at every length.
 local function written(u)
-  return celspan.stroke { points = loops, degree = 3, width = 20, taper = { 120, 220 },
+  return stroke { points = loops, degree = 3, width = 20, taper = { 120, 220 },
     cap = "round", to = u,
-                          texture = clay }
+                  fill = clay }
 end
 
 --- Dashes move with their offset; the outline of a primitive can be a line, too.
 local function road(f)
-  local stone = celspan.ellipse { centre = { 960, 940 }, radii = { 760, 76 } }
-  return { stone:stroke { width = 44, texture = "#d9c7a0" },
+  local stone = ellipse { 960, 940, 760, 76 }
+  return { stone:stroke { width = 44, fill = "#d9c7a0" },
            stone:stroke { width = 8, dash = { 46, 30 }, dash_offset = -76 * f.index / 12,
-                          cap = "round", texture = sky } }
+                          cap = "round", fill = sky } }
 end
 
-return celspan.film { size = { 1920, 1080 }, frames = 48, frame = function(f)
+return film { size = { 1920, 1080 }, frames = 48, frame = function(f)
   local u = f.index / f.count
   local track, dashes = table.unpack(road(f))
-  return celspan.rostrum { back = paper, celspan.cel {
+  return { back = paper, cel {
     track, dashes, brush(u), written(ease "inOutSine"(math.min(1, f.progress / 0.85))) } }
 end }

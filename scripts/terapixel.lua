@@ -5,7 +5,6 @@
 -- From afar it is a hill with houses. Ten times closer every house has windows; a hundred times
 -- closer every lit window shows a room, and every room has a picture on its wall. One of these
 -- pictures is a whole frame of scripts/demo.lua.
-local celspan = require "celspan"
 local landscape = require "demo.landscape"
 local palette = require "demo.palette"
 local Dice = require "terapixel.dice"
@@ -51,14 +50,14 @@ local function terrace(row, down, width)
     x = x + w * (is_free and dice:between(1.22, 1.45) or 0.3)
   end
   lamp(cels, row, 470 + row * row * 18, width)
-  return celspan.cel { celspan.union(cels[1]), front = light.near:at(time - 2.4) },
-    celspan.cel { celspan.union(cels[3]), front = { 7, 7, 7 } },
-    celspan.cel { celspan.union(cels[2]), front = { 0.96, 0.9, 0.82 } }
+  return cel { union(cels[1]), front = light.near:at(time - 2.4) },
+    cel { union(cels[3]), front = { 7, 7, 7 } },
+    cel { union(cels[2]), front = { 0.96, 0.9, 0.82 } }
 end
 
 --- The church on the crest, with a clock and a bell.
 local function church(x, y)
-  return celspan.union {
+  return union {
     draw.rect(x, y - 92, 34, 110, palette.walls[2]),
     draw.rect(x + 22, y - 92, 12, 110, "#00000028"),
     draw.path(palette.roofs[2], "M%g %gL%g %gL%g %gZ", x - 5, y - 90, x + 17, y - 168,
@@ -75,26 +74,26 @@ end
 local function picture()
   local rings, disc = land.sun()
   local cels = {
-    celspan.cel { land.air() },
-    celspan.cel { land.stars() },
-    celspan.cel { rings, front = { 6, 6, 6 } },
-    celspan.cel { disc, front = { 1.1, 1.05, 1 } },
-    celspan.cel { land.clouds() },
-    celspan.cel { land.mountains, front = light.far:at(time) },
-    celspan.cel { land.lake, land.glints, front = light.far:at(time) },
-    celspan.cel { church(598, 458), front = light.middle:at(time - 2.4) },
-    celspan.cel { land.hill, land.slope(), front = light.middle:at(time - 1) },
+    cel { land.air() },
+    cel { land.stars() },
+    cel { rings, front = { 6, 6, 6 } },
+    cel { disc, front = { 1.1, 1.05, 1 } },
+    cel { land.clouds() },
+    cel { land.mountains, front = light.far:at(time) },
+    cel { land.lake, land.glints, front = light.far:at(time) },
+    cel { church(598, 458), front = light.middle:at(time - 2.4) },
+    cel { land.hill, land.slope(), front = light.middle:at(time - 1) },
   }
   local rows = { { 0.06, 20 }, { 0.2, 26 }, { 0.37, 34 }, { 0.56, 44 }, { 0.78, 56 } }
   for row, at in ipairs(rows) do
     table.move({ terrace(row, at[1], at[2]) }, 1, 3, #cels + 1, cels)
   end
-  cels[#cels + 1] = celspan.cel { land.ground, front = light.near:at(time) }
-  cels[#cels + 1] = celspan.cel {
+  cels[#cels + 1] = cel { land.ground, front = light.near:at(time) }
+  cels[#cels + 1] = cel {
     landscape.meadow:scale(0.42):translate(0, 545), landscape.branch:scale(0.5):translate(-130, 0),
     front = { 0, 0, 0 } }
-  return celspan.rostrum(cels)
+  return rostrum(cels)
 end
 
-return celspan.film {
+return film {
   title = "A town of a million million pixels", size = { 1000, 1000 }, frames = 1, frame = picture }

@@ -1,7 +1,6 @@
 -- Trace: a picture of an ink drawing becomes shapes. Each is coloured by a point inside it, the
 -- tail moves by itself, and the fish swims, sharp at every size. A script drew the picture as a
 -- scanner would see the drawing.
-local celspan = require "celspan"
 local trace = require "celspan.trace"
 
 local fish = assert(trace.picture("pictures/scan.png", { speckle = 30 }))
@@ -25,11 +24,11 @@ local body, tail = {}, {}
 for _, shape in ipairs(fish.shapes) do
   local colour = paint(shape)
   local part = shape.object:bounds() > 420 and tail or body
-  if colour then part[#part + 1] = shape.object:with { texture = colour } end
+  if colour then part[#part + 1] = shape.object:with { fill = colour } end
 end
-body, tail = celspan.union(body), celspan.union(tail):translate(-34, 0)
+body, tail = union(body), union(tail):translate(-34, 0)
 
-local sea = celspan.linear { from = { 0, 0 }, to = { 0, 720 }, { 0, "#8fd3e8" }, { 0.5, "#3a8fb7" },
+local sea = linear { from = { 0, 0 }, to = { 0, 720 }, { 0, "#8fd3e8" }, { 0.5, "#3a8fb7" },
   { 1, "#123a63" } }
 
 local function bubbles(f)
@@ -37,20 +36,20 @@ local function bubbles(f)
   for i = 1, 14 do
     local x, r = 90 + 1100 * f:random("x" .. i), 3 + 12 * f:random("r" .. i)
     local y = (900 * f:random("y" .. i) - f.time * (60 + 5 * r)) % 800 - 40
-    list[i] = celspan.circle { centre = { x, y }, radius = r }:stroke { width = 2,
-      texture = "#ffffffa0" }
+    list[i] = circle { x, y, r }:stroke { width = 2,
+      fill = "#ffffffa0" }
   end
-  return celspan.union(list)
+  return union(list)
 end
 
-return celspan.film { size = { 1280, 720 }, frames = 48, frame = function(f)
+return film { size = { 1280, 720 }, frames = 48, frame = function(f)
   local beat = math.sin(2 * math.pi * 2 * f.time)
-  local swimming = celspan.union { tail:skew(0, 14 * beat, 412, 200)
+  local swimming = union { tail:skew(0, 14 * beat, 412, 200)
     :scale(1 - 0.06 * beat, 1, 412, 200),
     body:skew(0, -2 * beat, 425, 200) }
-  return celspan.rostrum {
-    celspan.cel { celspan.rect { 0, 0, 1280, 720, texture = sea } },
-    celspan.cel { bubbles(f) },
-    celspan.cel { swimming:scale(1.5):translate(330 - 260 * f.progress, 70 + 8 * beat) },
+  return {
+    rect { 0, 0, 1280, 720, fill = sea },
+    bubbles(f),
+    swimming:scale(1.5):translate(330 - 260 * f.progress, 70 + 8 * beat),
   }
 end }

@@ -1,9 +1,5 @@
 -- A head that turns: three drawings with the same names of parts, and morphs between them. A
 -- butterfly flies past, and she looks after it.
-local celspan = require "celspan"
-local keys = require "celspan.keys"
-local motion = require "celspan.motion"
-local svg = require "celspan.svg"
 
 local views = {}
 for i, name in ipairs { "front", "quarter", "side" } do
@@ -37,29 +33,29 @@ end
 local function head(time)
   local u = turn:at(time)
   local i = math.min(math.floor(u), 1)
-  return celspan.morph(face(views[i + 1], time), face(views[i + 2], time), u - i)
+  return morph(face(views[i + 1], time), face(views[i + 2], time), u - i)
 end
 
 local way = motion.along "M700 60 C560 20 470 130 400 110 S260 60 180 130 S20 90 -90 40"
 local function butterfly(time)
   local beat = math.abs(math.sin(9 * time)) * 0.85 + 0.15
-  local wing = celspan.union { celspan.path { d = "M0 0C10 -34 44 -40 44 -16C44 4 16 6 0 0Z",
-    texture = "#f2a33a" }, celspan.path { d = "M0 2C16 4 34 12 28 26C18 36 2 20 0 2Z",
-    texture = "#e0703a" },
-    celspan.circle { centre = { 30, -18 }, radius = 5, texture = "#7a3320" } }
-  local body = celspan.ellipse { centre = { 0, 2 }, radii = { 3, 15 }, texture = "#3a241c" }
+  local wing = union { path { d = "M0 0C10 -34 44 -40 44 -16C44 4 16 6 0 0Z",
+    fill = "#f2a33a" }, path { d = "M0 2C16 4 34 12 28 26C18 36 2 20 0 2Z",
+    fill = "#e0703a" },
+    circle { 30, -18, 5, fill = "#7a3320" } }
+  local body = ellipse { 0, 2, 3, 15, fill = "#3a241c" }
   local x, y = way:at(math.max(0, math.min(1, time / 3)))
-  return celspan.union { wing:scale(-beat, 1), wing:scale(beat, 1), body }:rotate(-24)
+  return union { wing:scale(-beat, 1), wing:scale(beat, 1), body }:rotate(-24)
     :translate(x, y + 6 * math.sin(7 * time))
 end
 
-local wall = celspan.linear { from = { 0, 0 }, to = { 0, 400 }, { 0, "#cfe6df" }, { 1, "#a9cfc6" } }
-local hills = celspan.path { d = "M0 330 Q150 250 330 318 T640 290 V400 H0 Z", texture = "#8bbcab" }
+local wall = linear { from = { 0, 0 }, to = { 0, 400 }, { 0, "#cfe6df" }, { 1, "#a9cfc6" } }
+local hills = path { d = "M0 330 Q150 250 330 318 T640 290 V400 H0 Z", fill = "#8bbcab" }
 
-return celspan.film { size = { 640, 400 }, frames = 96, frame = function(f)
+return film { size = { 640, 400 }, frames = 96, frame = function(f)
   local her = head(f.time):scale(1.12):translate(156, 24 + dip:at(f.time) * 0.6)
-  return celspan.rostrum {
-    celspan.cel { celspan.rect { 0, 0, 640, 400, texture = wall }, hills },
-    celspan.cel { her:paint "#2c5a55":translate(14, 6), opacity = 0.22, defocus = 10 },
-    celspan.cel { her }, celspan.cel { butterfly(f.time) } }
+  return {
+    cel { rect { 0, 0, 640, 400, fill = wall }, hills },
+    cel { her:paint "#2c5a55":translate(14, 6), opacity = 0.22, defocus = 10 },
+    her, butterfly(f.time) }
 end }

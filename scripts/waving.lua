@@ -1,7 +1,4 @@
 -- A drawing that waves: an owl from an SVG file whose parts turn about their joints.
-local celspan = require "celspan"
-local svg = require "celspan.svg"
-local keys = require "celspan.keys"
 
 local owl = assert(svg.read "drawings/owl.svg")
 
@@ -19,15 +16,15 @@ local height = keys { { 0, 1 }, { 0.2, 0.955, "outSine" }, { 0.5, 1.035, "inOutQ
   { 0.8, 1, "inOutSine" },
                       { 1.5, 1 }, { 1.75, 0.97, "inQuad" }, { 1.96, 1, "outBack" } }
 
-local night = celspan.cel {
-  celspan.rect { 0, 0, 640, 400,
-    texture = celspan.linear { from = { 0, 0 }, to = { 0, 400 }, { 0, "#16203f" },
+local night = cel {
+  rect { 0, 0, 640, 400,
+    fill = linear { from = { 0, 0 }, to = { 0, 400 }, { 0, "#16203f" },
     { 1, "#4a5d8f" } } },
-  celspan.circle { centre = { 520, 90 }, radius = 46, texture = "#f6ecc9" },
-  celspan.path { d = "M0 356 C180 340 420 372 640 350 V386 C430 396 200 372 0 388 Z",
-    texture = "#3a2a22" } }
+  circle { 520, 90, 46, fill = "#f6ecc9" },
+  path { d = "M0 356 C180 340 420 372 640 350 V386 C430 396 200 372 0 388 Z",
+    fill = "#3a2a22" } }
 
-return celspan.film { size = { 640, 400 }, frames = 48, frame = function(f)
+return film { size = { 640, 400 }, frames = 48, frame = function(f)
   local tall = height:at(f.time)
   local sunk = 160 * (1 - tall) -- of the shoulders, which are 160 above the feet
   local look = function(pupil) return pupil:translate(glance:at(f.time), 0) end
@@ -41,5 +38,5 @@ return celspan.film { size = { 640, 400 }, frames = 48, frame = function(f)
     end,
     head = function(head) return head:rotate(tilt:at(f.time), 160, 170):translate(0, sunk) end,
     ["left-pupil"] = look, ["right-pupil"] = look }
-  return celspan.rostrum { night, celspan.cel { art.object:translate(150, 12) } }
+  return { night, art.object:translate(150, 12) }
 end }

@@ -1,7 +1,6 @@
 -- Two who talk, in speech bubbles of a comic typeface; what one of them types is in another.
 --
 --   celspan watch talk.lua
-local celspan = require "celspan"
 
 local COMIC, TYPED, FPS = "fonts/ComicNeue-Bold.otf", "fonts/Courier Prime.otf", 24
 local lines = { -- from, to, who, what
@@ -13,25 +12,25 @@ local heads = { { 250, 400, "#f2a65a" }, { 710, 400, "#7fb7a3" } }
 
 local function head(x, y, colour, blinks)
   local eye = blinks and 2 or 11
-  return { celspan.circle { centre = { x, y }, radius = 90, texture = colour },
-    celspan.ellipse { centre = { x - 30, y - 10 }, radii = { 9, eye }, texture = "#2b2233" },
-    celspan.ellipse { centre = { x + 30, y - 10 }, radii = { 9, eye }, texture = "#2b2233" } }
+  return { circle { x, y, 90, fill = colour },
+    ellipse { x - 30, y - 10, 9, eye, fill = "#2b2233" },
+    ellipse { x + 30, y - 10, 9, eye, fill = "#2b2233" } }
 end
 
 local function bubble(who, words)
   local x = heads[who][1]
-  return { celspan.rect { x - 190, 90, 380, 150, radius = 40, texture = "#fffaf0" },
-    celspan.path { d = ("M%d 230 L%d 300 L%d 230 Z"):format(x - 30, x, x + 25),
-      texture = "#fffaf0" },
-    celspan.text { words, font = COMIC, size = 34, leading = 1.2, at = { x, 165 },
-      align = "centre", texture = "#2b2233" } }
+  return { rect { x - 190, 90, 380, 150, radius = 40, fill = "#fffaf0" },
+    path { d = ("M%d 230 L%d 300 L%d 230 Z"):format(x - 30, x, x + 25),
+      fill = "#fffaf0" },
+    text { words, x, 165, font = COMIC, size = 34, leading = 1.2,
+      align = "centre", fill = "#2b2233" } }
 end
 
-local back = celspan.rect { 0, 0, 960, 540, texture = "#3b3a5a" }
-local page = celspan.rect { 300, 440, 360, 80, radius = 6, texture = "#fffaf0" }
+local back = rect { 0, 0, 960, 540, fill = "#3b3a5a" }
+local page = rect { 300, 440, 360, 80, radius = 6, fill = "#fffaf0" }
 local note = "a star fell into the pond"
 
-return celspan.film { title = "Talk", size = { 960, 540 }, fps = FPS, frames = 6 * FPS,
+return film { title = "Talk", size = { 960, 540 }, fps = FPS, frames = 6 * FPS,
   frame = function(f)
     local art = { back }
     for i, at in ipairs(heads) do
@@ -46,8 +45,8 @@ return celspan.film { title = "Talk", size = { 960, 540 }, fps = FPS, frames = 6
     local typed = math.min(#note, math.floor((f.time - 3.8) * 14))
     if typed > 0 then
       art[#art + 1] = page
-      art[#art + 1] = celspan.text { note:sub(1, typed), font = TYPED, size = 20,
-        at = { 320, 488 }, texture = "#2b2233" }
+      art[#art + 1] = text { note:sub(1, typed), 320, 488, font = TYPED, size = 20,
+        fill = "#2b2233" }
     end
-    return celspan.rostrum { celspan.cel(art) }
+    return cel(art)
   end }

@@ -1,8 +1,6 @@
 -- The lamplighter: coat, scarf in the wind, one arm to tell the story and one to hold the lantern.
 -- She comes along the hill, speaks, and leaps. Drawn around the point between the boots, negative y
 -- is up, about 640 units tall.
-local celspan = require "celspan"
-local keys = require "celspan.keys"
 local face = require "demo.face"
 local palette = require "demo.palette"
 local shapes = require "demo.shapes"
@@ -10,7 +8,7 @@ local shapes = require "demo.shapes"
 local character = {}
 
 local function disc(x, y, r, texture)
-  return celspan.circle { centre = { x, y }, radius = r, texture = texture }
+  return circle { x, y, r, fill = texture }
 end
 
 local STEP = 112
@@ -55,15 +53,15 @@ local cloth = shapes.across(-110, 140, palette.coat)
 local trim = shapes.across(-130, 140, palette.trim)
 
 local function coat()
-  local outline = celspan.path { texture = cloth, d =
+  local outline = path { fill = cloth, d =
     "M-58 -300C-104 -280 -128 -150 -150 -76Q0 -32 150 -76C128 -150 104 -280 58 -300Z" }
   local hem = shapes.ribbon({ { -156, -86, 26 }, { -80, -66, 26 }, { 0, -59, 26 }, { 80, -66, 26 },
                               { 156, -86, 26 } }, trim)
   local front = shapes.ribbon({ { -6, -300, 5 }, { -12, -180, 5 }, { -16, -60, 5 } },
                               palette.coat[2])
-  local parts = { outline, celspan.clip(celspan.union { hem, front }, outline) }
+  local parts = { outline, clip(union { hem, front }, outline) }
   for i = 0, 2 do parts[#parts + 1] = disc(-34, -240 + i * 56, 9, palette.button) end
-  return celspan.union(parts)
+  return union(parts)
 end
 
 local body = coat()
@@ -71,14 +69,14 @@ local collar = shapes.ribbon({ { -86, -306, 30 }, { -40, -284, 46 }, { 10, -278,
                                { 56, -286, 44 }, { 88, -308, 28 } },
                              shapes.across(-80, 110, palette.scarf))
 
-local boot = celspan.path { texture = palette.boot, d =
+local boot = path { fill = palette.boot, d =
     "M-22 -52H22L25 -4Q25 5 16 5H-44Q-54 5 -52 -8Q-48 -24 -22 -28Z" }
   | shapes.ribbon({ { -25, -50, 15 }, { 0, -48, 17 }, { 25, -50, 15 } }, trim)
 
 --- A leg under the coat: its boot's place along the way, above the ground, and its turn.
 local function leg(hip, x, y, turn)
   local ankle = y - 40
-  return celspan.union {
+  return union {
     shapes.ribbon({ { hip, -110, 40 }, { (hip + x) / 2 - 5, (ankle - 110) / 2, 36 },
                     { x, ankle, 32 } }, palette.tights),
     boot:rotate(turn, 0, -40):translate(x, y) }
@@ -131,11 +129,11 @@ local function arm(side, upper, lower)
     | shapes.ribbon({ { x, y, 50 }, { ex, ey, 47 }, { hx, hy, 56 } }, wool)
   local cuff = shapes.ribbon({ { hx - 10 * sin, hy - 10 * cos, 60 },
                                { hx + 8 * sin, hy + 8 * cos, 62 } }, trim)
-  local thumb = celspan.stroke { cap = "round", texture = palette.skin, width = 19, points = {
+  local thumb = stroke { cap = "round", fill = palette.skin, width = 19, points = {
     { gx, gy }, { gx + 12 * sin - 20 * cos, gy + 12 * cos + 20 * sin } } }
-  local hand = celspan.union { thumb, disc(gx, gy, 25, palette.skin),
+  local hand = union { thumb, disc(gx, gy, 25, palette.skin),
     disc(gx + 9 * sin, gy + 9 * cos, 22, palette.skin) }
-  return celspan.union { hand, sleeve, cuff }
+  return union { hand, sleeve, cuff }
 end
 
 --- upper and lower arm: swing with the steps, offer the hills, the houses, and reach for the stars.
@@ -163,12 +161,12 @@ local function carried(time)
 end
 
 local function lantern(x, y, swing)
-  local glass = celspan.path { d = "M-24 34L24 34L30 94L-30 94Z", texture = "#ffdf9c" }
-  local frame = celspan.union {
+  local glass = path { d = "M-24 34L24 34L30 94L-30 94Z", fill = "#ffdf9c" }
+  local frame = union {
     shapes.ribbon({ { -20, 30, 5 }, { 0, -2, 5 }, { 20, 30, 5 } }, palette.brass),
-    celspan.polygon { { -34, 36 }, { 0, 16 }, { 34, 36 }, texture = palette.brass },
-    celspan.rect { -36, 92, 72, 12, radius = 5, texture = palette.brass },
-    celspan.rect { -3, 34, 6, 60, texture = palette.brass },
+    polygon { { -34, 36 }, { 0, 16 }, { 34, 36 }, fill = palette.brass },
+    rect { -36, 92, 72, 12, radius = 5, fill = palette.brass },
+    rect { -3, 34, 6, 60, fill = palette.brass },
   }
   local function place(v) return v:rotate(swing):translate(x, y) end
   return place(glass), place(frame)
@@ -199,15 +197,15 @@ function character.draw(time, shape)
   local head = face.draw(time, shape)
     :rotate(2.4 * math.sin(time * 2.3) - 2 - 2 * stride):translate(sway * 2, -392 + sway)
     :named "head"
-  local upright = celspan.union {
+  local upright = union {
     tail(time, 0, 250, 40), tail(time, 1.3, 200, 96), arm(1, upper, lower):named "lantern arm",
     body:skew(3 * stride, 0, 0, -300), story:named "telling arm", head, collar }
   local x, y = character.place(time)
   local _, carry = posed(time)
   local function stand(art) return carry(art):translate(x, y) end
   local high = height(time)
-  local shadow = celspan.ellipse { centre = { 0, 2 }, texture = "#101a1c70",
-    radii = { 132 - 0.3 * high, 15 - 0.04 * high } }:translate(x, y)
+  local shadow = ellipse { 0, 2, 132 - 0.3 * high, 15 - 0.04 * high, fill = "#101a1c70" }
+    :translate(x, y)
   local hx, hy, swing = grip(time)
   local glass, frame = lantern(hx, hy, swing)
   local walking = legs(time):translate(x, y - high)

@@ -1,6 +1,4 @@
 -- The head: hair, hat, eyes that blink, brows that help, and one of the nine mouths.
-local celspan = require "celspan"
-local keys = require "celspan.keys"
 local mouths = require "demo.mouths"
 local palette = require "demo.palette"
 local shapes = require "demo.shapes"
@@ -8,18 +6,18 @@ local shapes = require "demo.shapes"
 local face = {}
 
 local function disc(x, y, rx, ry, texture)
-  return celspan.ellipse { centre = { x, y }, radii = { rx, ry }, texture = texture }
+  return ellipse { x, y, rx, ry, fill = texture }
 end
 
 local back_hair = shapes.blob({ { -128, 10 }, { -118, -120 }, { 0, -160 }, { 118, -120 },
                                 { 132, 10 }, { 128, 92 }, { 60, 84 }, { 0, 60 }, { -60, 84 },
                                 { -124, 92 } }, palette.hair)
 local skull = disc(0, 0, 104, 97, shapes.across(-70, 130, palette.face))
-local cheeks = celspan.union { disc(-68, 26, 20, 15, palette.cheek),
-                               disc(50, 26, 20, 15, palette.cheek) }
+local cheeks = union { disc(-68, 26, 20, 15, palette.cheek),
+                       disc(50, 26, 20, 15, palette.cheek) }
 local nose = disc(-10, 12, 10, 8, palette.nose)
-local fringe = celspan.clip(
-  celspan.union { disc(-64, -92, 82, 64, palette.hair), disc(58, -92, 92, 58, palette.hair) },
+local fringe = clip(
+  union { disc(-64, -92, 82, 64, palette.hair), disc(58, -92, 92, 58, palette.hair) },
   disc(0, -2, 106, 100))
 local band = shapes.ribbon({ { -118, -34, 40 }, { -70, -70, 46 }, { 0, -84, 48 }, { 70, -70, 46 },
                              { 118, -34, 40 } }, shapes.across(-90, 120, palette.wool))
@@ -41,7 +39,7 @@ local brows = keys { { 1, 0 }, { 1.2, -6, "outQuad" }, { 2.6, 0, "inOutQuad" }, 
                      { 7.5, -11, "outQuad" }, { 9.6, -5 } }
 
 local function eye(x, dx, dy, openness)
-  return celspan.union {
+  return union {
     disc(x + dx, -10 + dy, 11, 15 * openness, palette.ink),
     disc(x + dx - 4, -15 + dy, 3.6, 4.4 * openness, "#fff6e6"),
   }
@@ -56,18 +54,18 @@ end
 local function hat(time)
   local swing = 12 * math.sin(time * 2.1) + 6 * math.sin(time * 3.7)
   local x, y = 92 + swing, -228 + swing * 0.4
-  local cone = celspan.path { texture = shapes.across(-90, 130, palette.hat), d =
+  local cone = path { fill = shapes.across(-90, 130, palette.hat), d =
     ("M-112 -44C-104 -150 -30 -236 %g %gC%g %g 104 -140 112 -44Q0 -104 -112 -44Z"):format(
       x, y, x - 8, y + 46) }
   local pompom = disc(x + 4, y + 4, 27, 27, shapes.across(x - 20, x + 30, palette.wool))
-  return celspan.union { cone, band, pompom }
+  return union { cone, band, pompom }
 end
 
 --- The head around its own middle, with the mouth `shape`.
 function face.draw(time, shape)
   local dx, dy = table.unpack(gaze:at(time))
   local openness, lift = lids(time), brows:at(time)
-  return celspan.union {
+  return union {
     back_hair, skull, cheeks,
     nose:translate(dx, dy):named "nose",
     eye(-47, dx, dy, openness):named "left eye", eye(29, dx, dy, openness):named "right eye",

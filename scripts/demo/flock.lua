@@ -1,5 +1,4 @@
 -- Geese: a wedge of birds, each of which beats its wings a little later than the one before.
-local celspan = require "celspan"
 local palette = require "demo.palette"
 
 local flock = {}
@@ -10,7 +9,7 @@ local function goose(x, y, size, beat)
   local d = ("M%g %gQ%g %g %g 0Q%g %g %g %gQ%g %g %g %gQ%g %g %g %gZ"):format(
     -s, tip, -s * 0.45, bend, -s * 0.1, s * 0.45, bend, s, tip,
     s * 0.5, bend + s * 0.3, s * 0.1, s * 0.16, -s * 0.45, bend + s * 0.3, -s, tip)
-  return celspan.path { d = d, texture = palette.goose }:translate(x, y)
+  return path { d = d, fill = palette.goose }:translate(x, y)
 end
 
 --- The leader at (x, y), flying left to right.
@@ -21,7 +20,7 @@ function flock.draw(time, x, y)
     birds[#birds + 1] = goose(x - back * 46 - (i > 0 and 10 or 0), y + i * 15 - back * 4,
       24 - back * 0.8, math.sin(time * 9 - back * 0.9))
   end
-  return celspan.cel { celspan.union(birds) }
+  return cel { union(birds) }
 end
 
 return flock

@@ -1,5 +1,4 @@
 -- The valley, plane by plane. Built once: nothing in it moves by itself.
-local celspan = require "celspan"
 local palette = require "demo.palette"
 local shapes = require "demo.shapes"
 
@@ -25,14 +24,14 @@ landscape.hills = shapes.ridge({
 
 --- Water: in the colour of the low sky, with long calm lines.
 local function lake()
-  local parts = { celspan.rect { -60, 668, 2500, 240, texture = shaded(palette.lake, 668, 800) } }
+  local parts = { rect { -60, 668, 2500, 240, fill = shaded(palette.lake, 668, 800) } }
   local glints = { { 560, 684, 260, 3 }, { 500, 696, 420, 4 }, { 620, 712, 300, 5 },
                    { 900, 730, 380, 5 }, { 1280, 700, 300, 4 }, { 1500, 724, 420, 5 } }
   for _, g in ipairs(glints) do
-    parts[#parts + 1] = celspan.rect { g[1], g[2], g[3], g[4], radius = g[4] / 2,
-                                       texture = palette.glint }
+    parts[#parts + 1] = rect { g[1], g[2], g[3], g[4], radius = g[4] / 2,
+                               fill = palette.glint }
   end
-  return celspan.union(parts)
+  return union(parts)
 end
 landscape.lake = lake()
 
@@ -40,7 +39,7 @@ landscape.lake = lake()
 local function field(land, furrows, paint)
   local parts = {}
   for i, points in ipairs(furrows) do parts[i] = shapes.ribbon(points, paint) end
-  return celspan.union { land, celspan.clip(celspan.union(parts), land) }
+  return union { land, clip(union(parts), land) }
 end
 
 local function furrows(count, x, y, spread)
@@ -79,13 +78,13 @@ end
 --- A round tree: crown and trunk.
 local function oak(x, y, size, colour)
   local function leaves(dx, dy, r)
-    return celspan.circle { centre = { x + size * dx, y + size * dy }, radius = size * r,
-                            texture = colour }
+    return circle { x + size * dx, y + size * dy, size * r,
+                    fill = colour }
   end
-  local trunk = celspan.rect { x - size * 0.06, y - size * 0.5, size * 0.12, size * 0.5,
-                               texture = palette.boot }
-  return celspan.union { trunk, leaves(0, -0.72, 0.42), leaves(0.3, -0.55, 0.3),
-                         leaves(-0.3, -0.52, 0.28) }
+  local trunk = rect { x - size * 0.06, y - size * 0.5, size * 0.12, size * 0.5,
+                       fill = palette.boot }
+  return union { trunk, leaves(0, -0.72, 0.42), leaves(0.3, -0.55, 0.3),
+                 leaves(-0.3, -0.52, 0.28) }
 end
 
 local function grove(list, plant)
@@ -94,7 +93,7 @@ local function grove(list, plant)
     local x, y, size = table.unpack(t)
     parts[i] = plant(x, y, size, shapes.across(x - size * 0.3, x + size * 0.35, palette.leaves))
   end
-  return celspan.union(parts)
+  return union(parts)
 end
 
 landscape.poplars = grove({ { 96, 690, 120 }, { 132, 690, 150 }, { 170, 688, 126 },
@@ -119,11 +118,10 @@ local function umbel(x, y, size)
     local px, py = x + k * size * 0.3, y - size * (0.62 - 0.045 * k * k)
     parts[#parts + 1] = stalk({ x, y, 4 }, { x + k * size * 0.18, y - size * 0.3, 3 },
                               { px, py, 2 })
-    parts[#parts + 1] = celspan.ellipse { centre = { px, py - 3 },
-                                          radii = { size * 0.15, size * 0.085 },
-                                          texture = palette.silhouette }
+    parts[#parts + 1] = ellipse { px, py - 3, size * 0.15, size * 0.085,
+                                  fill = palette.silhouette }
   end
-  return celspan.union(parts)
+  return union(parts)
 end
 
 --- The foreground, between the camera and the stage.
@@ -135,7 +133,7 @@ local function meadow()
     parts[#parts + 1] = stalk({ x, 1120, 20 }, { x + lean * 0.4, 1120 - tall * 0.6, 12 },
                               { x + lean * 1.5, 1120 - tall * 1.1, 1 })
   end
-  return celspan.union(parts)
+  return union(parts)
 end
 landscape.meadow = meadow()
 
@@ -147,11 +145,11 @@ local function branch()
     local x = 1800 + i * 37
     local y = 66 + 22 * math.sin((i + 1) / 5.2) - math.max(0, i - 10) * 17
     local turn = (i % 2 == 0 and 62 or -48) + i * 23 % 30
-    parts[#parts + 1] = celspan.path { d = "M0 0C14 -26 52 -30 84 0C52 24 16 22 0 0Z",
-                                       texture = palette.silhouette }
+    parts[#parts + 1] = path { d = "M0 0C14 -26 52 -30 84 0C52 24 16 22 0 0Z",
+                               fill = palette.silhouette }
       :scale(0.8 + i * 11 % 5 * 0.1):rotate(180 - turn):translate(x, y)
   end
-  return celspan.union(parts)
+  return union(parts)
 end
 landscape.branch = branch()
 

@@ -1,6 +1,5 @@
 -- Nine mouths, one per shape of Rhubarb's alphabet: A-F spoken, G and H for f and l, X at rest.
 -- Each is drawn around (0, 0), about 60 units wide.
-local celspan = require "celspan"
 local palette = require "demo.palette"
 local shapes = require "demo.shapes"
 
@@ -14,16 +13,16 @@ end
 --- An open mouth: half its width, its depth, and how far teeth and tongue reach into it.
 local function open(half, depth, upper, lower)
   local dip = 7 + depth * 0.06
-  local outline = celspan.path { texture = dark,
-                                 d = ("M%g -4Q0 %g %g -4C%g %g %g %g %g -4Z"):format(
+  local outline = path { fill = dark,
+                         d = ("M%g -4Q0 %g %g -4C%g %g %g %g %g -4Z"):format(
     -half, dip, half, half * 1.06, depth * 1.4, -half * 1.06, depth * 1.4, -half) }
-  local inside = celspan.union {
-    celspan.ellipse { centre = { 0, depth * 1.1 - lower }, radii = { half * 0.68, lower + 2 },
-                      texture = tongue },
-    celspan.path { texture = teeth, d = ("M%g -9H%gV%gQ0 %g %g %gZ"):format(
+  local inside = union {
+    ellipse { 0, depth * 1.1 - lower, half * 0.68, lower + 2,
+              fill = tongue },
+    path { fill = teeth, d = ("M%g -9H%gV%gQ0 %g %g %gZ"):format(
       -half * 0.86, half * 0.86, upper - 5, dip + upper, -half * 0.86, upper - 5) },
   }
-  return celspan.union { outline, celspan.clip(inside, outline) }
+  return union { outline, clip(inside, outline) }
 end
 
 return {
@@ -32,10 +31,10 @@ return {
   C = open(28, 27, 7, 9),
   D = open(31, 46, 9, 17),
   E = open(20, 34, 5, 10),
-  F = celspan.union { celspan.ellipse { centre = { 0, 8 }, radii = { 15, 14 }, texture = lip },
-                      celspan.ellipse { centre = { 0, 8 }, radii = { 9, 8 }, texture = dark } },
-  G = celspan.union { open(25, 14, 10, 0),
-                      shapes.ribbon({ { -20, 11, 3 }, { 0, 15, 9 }, { 20, 11, 3 } }, lip) },
+  F = union { ellipse { 0, 8, 15, 14, fill = lip },
+              ellipse { 0, 8, 9, 8, fill = dark } },
+  G = union { open(25, 14, 10, 0),
+              shapes.ribbon({ { -20, 11, 3 }, { 0, 15, 9 }, { 20, 11, 3 } }, lip) },
   H = open(26, 36, 7, 26),
   X = line({ -27, -3, 2 }, { -14, 4, 4 }, { 0, 6, 5 }, { 14, 4, 4 }, { 27, -3, 2 }),
 }

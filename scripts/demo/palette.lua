@@ -1,13 +1,11 @@
 -- Every colour of the film, and how the evening changes them. Times are seconds.
-local celspan = require "celspan"
-local keys = require "celspan.keys"
 
 local palette = {}
 
 --- A colour that goes from gold to dusk.
 local function turning(gold, dusk)
-  return keys { { 0.5, celspan.mix(gold, gold, 0) },
-                { 8.5, celspan.mix(dusk, dusk, 0), "inOutSine" } }
+  return keys { { 0.5, mix(gold, gold, 0) },
+                { 8.5, mix(dusk, dusk, 0), "inOutSine" } }
 end
 
 palette.sky = {
@@ -69,9 +67,9 @@ function palette.lamplight(x, y, radius)
   for i = 0, 16 do
     local u = i / 16
     local strength = (1 - u) ^ 2 / (1 + 24 * u * u)
-    light[#light + 1] = { u, celspan.rgb(strength, 0.6 * strength, 0.26 * strength) }
+    light[#light + 1] = { u, rgb(strength, 0.6 * strength, 0.26 * strength) }
   end
-  return celspan.radial(light)
+  return radial(light)
 end
 
 return palette

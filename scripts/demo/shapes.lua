@@ -1,5 +1,4 @@
 -- Outlines that the drawings share: everything here is a path made from a few points.
-local celspan = require "celspan"
 
 local shapes = {}
 
@@ -7,7 +6,7 @@ local shapes = {}
 local function between(from, to, colours)
   local stops = { from = from, to = to }
   for i, colour in ipairs(colours) do stops[i] = { (i - 1) / (#colours - 1), colour } end
-  return celspan.linear(stops)
+  return linear(stops)
 end
 
 --- A gradient from top to bottom, and one from left to right.
@@ -34,12 +33,12 @@ function shapes.ridge(points, bottom, texture)
   local first, last = points[1], points[#points]
   local d = ("M" .. number .. "L" .. number):format(first[1], bottom, first[1], first[2])
     .. through(points) .. ("L" .. number .. "Z"):format(last[1], bottom)
-  return celspan.path { d = d, texture = texture }
+  return path { d = d, fill = texture }
 end
 
 --- A soft closed outline with the points as its control cage.
 function shapes.blob(points, texture)
-  return celspan.nurbs { points = points, texture = texture }
+  return nurbs { points = points, fill = texture }
 end
 
 --- A ribbon along a line of points {x, y, width}.
@@ -54,7 +53,7 @@ function shapes.ribbon(points, texture)
   end
   local d = ("M" .. number):format(there[1][1], there[1][2]) .. through(there)
     .. ("L" .. number):format(back[1][1], back[1][2]) .. through(back) .. "Z"
-  return celspan.path { d = d, texture = texture }
+  return path { d = d, fill = texture }
 end
 
 -- Steep at the lamp and level at the rim, where a step would be visible as a ring.
@@ -65,10 +64,10 @@ local falloff = { { 0, 1 }, { 0.15, 0.66 }, { 0.3, 0.4 }, { 0.45, 0.22 }, { 0.6,
 function shapes.glow(x, y, radius, r, g, b, strength)
   local stops = { centre = { x, y }, radius = radius }
   for i, stop in ipairs(falloff) do
-    stops[i] = { stop[1], celspan.rgb(r, g, b, strength * stop[2]) }
+    stops[i] = { stop[1], rgb(r, g, b, strength * stop[2]) }
   end
-  local texture = celspan.radial(stops)
-  return celspan.circle { centre = { x, y }, radius = radius, texture = texture }
+  local texture = radial(stops)
+  return circle { x, y, radius, fill = texture }
 end
 
 return shapes

@@ -1,7 +1,4 @@
 -- The sky: a gradient that turns from gold to dusk, a setting sun, clouds, and stars on cue.
-local celspan = require "celspan"
-local ease = require "celspan.ease"
-local keys = require "celspan.keys"
 local palette = require "demo.palette"
 
 local sky = {}
@@ -11,7 +8,7 @@ local width, height = 2200, 1080
 function sky.air(time)
   local gradient = { from = { 0, 0 }, to = { 0, height } }
   for i, stop in ipairs(palette.sky) do gradient[i] = { stop[1], stop[2]:at(time) } end
-  return celspan.cel { celspan.rect { 0, 0, width, height, texture = celspan.linear(gradient) } }
+  return cel { rect { 0, 0, width, height, fill = linear(gradient) } }
 end
 
 local sun_height = keys { { 0, 490 }, { 7.5, 790, "inOutSine" } }
@@ -23,12 +20,12 @@ function sky.sun(time)
   local strength = 6 * sun_strength:at(time)
   local rings = {}
   for i, radius in ipairs { 430, 318, 216, 132 } do
-    rings[i] = celspan.circle { centre = { x, y }, radius = radius,
-                                texture = celspan.rgb(1, 0.62, 0.28, 0.007 + 0.003 * i) }
+    rings[i] = circle { x, y, radius,
+                        fill = rgb(1, 0.62, 0.28, 0.007 + 0.003 * i) }
   end
-  local disc = celspan.circle { centre = { x, y }, radius = 74, texture = palette.sun:at(time) }
-  return celspan.cel { celspan.union(rings), front = { strength, strength, strength } },
-    celspan.cel { disc, front = { 1.15, 1.1, 1 } }
+  local disc = circle { x, y, 74, fill = palette.sun:at(time) }
+  return cel { union(rings), front = { strength, strength, strength } },
+    cel { disc, front = { 1.15, 1.1, 1 } }
 end
 
 --- Banks of cloud: {x, y, size}, and the rounded bars {x, y, length} of a bank.
@@ -42,13 +39,13 @@ function sky.clouds(time)
   for i, bank in ipairs(banks) do
     local x, y, size = bank[1] + time * (3 + i % 3 * 2), bank[2], bank[3]
     for _, pill in ipairs(pills) do
-      parts[#parts + 1] = celspan.rect {
+      parts[#parts + 1] = rect {
         x + pill[1] * size, y + pill[2] * size, pill[3] * size, 26 * size, radius = 13 * size }
     end
   end
-  local paint = celspan.mix(celspan.clear, palette.cloud:at(time), 0.55)
-  return celspan.cel { celspan.clip(celspan.rect { -200, 0, width + 400, 640, texture = paint },
-                                    celspan.union(parts)) }
+  local paint = mix(clear, palette.cloud:at(time), 0.55)
+  return cel { clip(rect { -200, 0, width + 400, 640, fill = paint },
+                    union(parts)) }
 end
 
 --- Stars lie on a spiral of golden angles, so they look scattered and never crowd.
@@ -73,11 +70,11 @@ function sky.stars(time, cue, from)
     local age = (time - cue - math.sqrt(dx * dx + dy * dy) / 1000) / 0.4
     if age > 0 then
       local size = star[3] * pop(math.min(1, age)) * (1 + 0.18 * math.sin(time * 5 + star[1]))
-      parts[#parts + 1] = celspan.circle { centre = { star[1], star[2] }, radius = size,
-                                           texture = "#fff4dc" }
+      parts[#parts + 1] = circle { star[1], star[2], size,
+                                   fill = "#fff4dc" }
     end
   end
-  return celspan.cel { celspan.union(parts) }
+  return cel { union(parts) }
 end
 
 return sky

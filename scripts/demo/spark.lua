@@ -1,6 +1,4 @@
 -- The spark: it leaves the lantern, flies over the valley in an arc, and bursts in the sky.
-local celspan = require "celspan"
-local ease = require "celspan.ease"
 local shapes = require "demo.shapes"
 
 local spark = {}
@@ -22,8 +20,8 @@ local function flight(from, to, share)
     tail[i + 1] = { x, y, 1 + 2 * i }
   end
   local x, y = on_arc(from, to, share)
-  return { celspan.stroke { points = tail, cap = "round", texture = "#ffd27a" },
-    celspan.circle { centre = { x, y }, radius = 12, texture = "#fff6dc" } },
+  return { stroke { points = tail, cap = "round", fill = "#ffd27a" },
+    circle { x, y, 12, fill = "#fff6dc" } },
     { shapes.glow(x, y, 190, 1, 0.6, 0.25, 0.16) }
 end
 
@@ -36,12 +34,12 @@ local function burst(at, age)
       local way = speed * (1 - math.exp(-2.6 * t)) / 2.6
       return { at[1] + way * math.cos(turn), at[2] + way * math.sin(turn) + 70 * t * t }
     end
-    sparks[i] = celspan.stroke { points = { place(math.max(0, age - 0.14)), place(age) },
-      width = 1 + 6 * fade, cap = "round", texture = i % 3 == 0 and "#ffb35c" or "#fff0c4" }
+    sparks[i] = stroke { points = { place(math.max(0, age - 0.14)), place(age) },
+      width = 1 + 6 * fade, cap = "round", fill = i % 3 == 0 and "#ffb35c" or "#fff0c4" }
       :fade(fade)
   end
-  sparks[#sparks + 1] = celspan.circle { centre = at, radius = 40 + 760 * rise(math.min(1, age)) }
-    :stroke { width = 2 + 5 * fade, texture = celspan.rgb(1, 0.8, 0.5, 0.24 * fade * fade) }
+  sparks[#sparks + 1] = circle { centre = at, radius = 40 + 760 * rise(math.min(1, age)) }
+    :stroke { width = 2 + 5 * fade, fill = rgb(1, 0.8, 0.5, 0.24 * fade * fade) }
   return sparks, { shapes.glow(at[1], at[2], 500, 1, 0.72, 0.4, 0.2 * fade ^ 3) }
 end
 
@@ -60,8 +58,8 @@ function spark.draw(time, from, at, thrown, bursts)
   else
     art, glow = burst(at, time - bursts)
   end
-  return celspan.cel { table.unpack(art) }:with { front = { 1.3, 1.3, 1.3 } },
-    celspan.cel { table.unpack(glow) }:with { front = { 7, 7, 7 } }
+  return cel { table.unpack(art) }:with { front = { 1.3, 1.3, 1.3 } },
+    cel { table.unpack(glow) }:with { front = { 7, 7, 7 } }
 end
 
 return spark

@@ -1,6 +1,4 @@
 -- The name, written into the sky with a round pen: letters of arcs and lines on a grid of 100.
-local celspan = require "celspan"
-local ease = require "celspan.ease"
 
 local title = {}
 
@@ -23,11 +21,11 @@ function title.write(word, progress, texture)
   for i = 1, #word do
     local letter = letters[word:sub(i, i)]
     local part = flow(math.max(0, math.min(1, progress * (#word + 2) / 3 - (i - 1) / 3)))
-    parts[i] = celspan.stroke { d = letter[2], width = 17, cap = "round", join = "round", to = part,
-                                texture = texture }:translate(x, 0)
+    parts[i] = stroke { d = letter[2], width = 17, cap = "round", join = "round", to = part,
+                        fill = texture }:translate(x, 0)
     x = x + letter[1] + 34
   end
-  return celspan.union(parts), x - 34
+  return union(parts), x - 34
 end
 
 return title

@@ -1,7 +1,5 @@
 -- The village: houses for the first exposure, and for the second a black card with the windows cut
 -- out and coloured gels behind the cuts, lit from the back as on a real rostrum.
-local celspan = require "celspan"
-local ease = require "celspan.ease"
 local palette = require "demo.palette"
 local shapes = require "demo.shapes"
 
@@ -19,12 +17,12 @@ local houses = {
 local art, panes, homes, glows = {}, {}, {}, {}
 
 local function rect(x, y, w, h, texture)
-  return celspan.rect { x, y, w, h, texture = texture }
+  return celspan.rect { x, y, w, h, fill = texture }
 end
 
 local function window(x, y, w, h)
   homes[#homes + 1] = #glows
-  panes[#panes + 1] = celspan.path { texture = palette.pane,
+  panes[#panes + 1] = path { fill = palette.pane,
     d = ("M%g %gv%ga%g %g 0 0 1 %g 0v%gz"):format(x, y + h, w / 2 - h, w / 2, w / 2, w, h - w / 2) }
 end
 
@@ -34,8 +32,8 @@ local function house(i, x, y, w, h, windows)
   local lit = shapes.across(x, x + w, { wall, palette.wall_shade })
   art[#art + 1] = rect(x + w * 0.68, y - h - w * 0.62, w * 0.12, w * 0.4, palette.roofs[2])
   art[#art + 1] = rect(x, y - h, w, h + 10, lit)
-  art[#art + 1] = celspan.polygon { { x - w * 0.1, y - h + 3 }, { x + w * 0.5, y - h - w * 0.52 },
-                                    { x + w * 1.1, y - h + 3 }, texture = roof }
+  art[#art + 1] = polygon { { x - w * 0.1, y - h + 3 }, { x + w * 0.5, y - h - w * 0.52 },
+                            { x + w * 1.1, y - h + 3 }, fill = roof }
   glows[#glows + 1] = { x + w / 2, y - h * 0.5, w * 0.78 }
   local step = w / windows
   for k = 1, windows do window(x + (k - 0.5) * step - 7, y - h * 0.68, 14, 24) end
@@ -44,8 +42,8 @@ end
 local function church(x, y)
   local lit = shapes.across(x, x + 52, { palette.walls[1], palette.wall_shade })
   art[#art + 1] = rect(x, y - 150, 52, 160, lit)
-  art[#art + 1] = celspan.polygon { { x - 7, y - 148 }, { x + 26, y - 262 }, { x + 59, y - 148 },
-                                    texture = palette.roofs[2] }
+  art[#art + 1] = polygon { { x - 7, y - 148 }, { x + 26, y - 262 }, { x + 59, y - 148 },
+                            fill = palette.roofs[2] }
   glows[#glows + 1] = { x + 26, y - 98, 80 }
   window(x + 18, y - 132, 16, 36)
   window(x + 18, y - 70, 16, 30)
@@ -54,8 +52,8 @@ end
 church(434, 682)
 for i, h in ipairs(houses) do house(i, table.unpack(h)) end
 
-village.houses = celspan.union(art)
-village.panes = celspan.union(panes)
+village.houses = union(art)
+village.panes = union(panes)
 
 local card = celspan.rect { -200, 0, 2600, 1080 } - village.panes
 
@@ -73,7 +71,7 @@ function village.light_box(time, cue, viewport)
   for i, pane in ipairs(panes) do
     local level, home = level_of(i, time, cue), homes[i]
     local r, g, b = table.unpack(palette.gels[i % #palette.gels + 1])
-    gels[i] = pane:with { texture = celspan.gel(r * level, g * level, b * level) }
+    gels[i] = pane:with { fill = gel(r * level, g * level, b * level) }
     levels[home] = math.max(levels[home] or 0, level)
   end
   for home, at in ipairs(glows) do
@@ -81,9 +79,9 @@ function village.light_box(time, cue, viewport)
       halos[#halos + 1] = shapes.glow(at[1], at[2], at[3], 1, 0.5, 0.16, 0.075 * levels[home])
     end
   end
-  return celspan.cel { celspan.union(gels), back = { 1.5, 1.5, 1.5 }, viewport = viewport },
-    celspan.cel { card, front = { 0, 0, 0 }, viewport = viewport },
-    celspan.cel { celspan.union(halos), front = { 7, 7, 7 }, viewport = viewport }
+  return cel { union(gels), back = { 1.5, 1.5, 1.5 }, viewport = viewport },
+    cel { card, front = { 0, 0, 0 }, viewport = viewport },
+    cel { union(halos), front = { 7, 7, 7 }, viewport = viewport }
 end
 
 return village

@@ -1,5 +1,4 @@
 -- The lamplighter's acting at a frame of the film, from the exposure sheet and the voice.
-local lips = require "celspan.lips"
 local sheet = require "celspan.sheet"
 local lamplighter = require "film.lamplighter"
 local timing = require "film.timing"

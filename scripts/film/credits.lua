@@ -1,6 +1,4 @@
 -- The credits: a few lines that come letter by letter, and go.
-local celspan = require "celspan"
-local ease = require "celspan.ease"
 local timing = require "film.timing"
 
 local credits = {}
@@ -8,9 +6,9 @@ local credits = {}
 local FONT = "../type/block.ttf"
 
 local function line(text, size, y, weight, colour)
-  return celspan.glyphs { text, font = FONT, size = size, at = { 960, y }, align = "centre",
+  return glyphs { text, 960, y, font = FONT, size = size, align = "centre",
     tracking = 120,
-    variations = { wght = weight }, texture = colour }
+    variations = { wght = weight }, fill = colour }
 end
 
 local cards = {
@@ -24,8 +22,8 @@ local cards = {
 
 --- A letter rises to its place and fades out there.
 local function letter_at(letter, i, time, card)
-  local u = timing.share(time, card.from + 0.009 * i, 0.4)
-  local gone = timing.share(time, card.to - 0.25, 0.25)
+  local u = motion.span(time, card.from + 0.009 * i, 0.4)
+  local gone = motion.span(time, card.to - 0.25, 0.25)
   if u == 0 or gone == 1 then return nil end
   local k = ease "outCubic"(u)
   return letter.object:translate(0, 18 * (1 - k)):fade(u * (1 - gone))
@@ -44,7 +42,7 @@ function credits.draw(time)
     end
   end
   if #parts == 0 then return {} end
-  return { celspan.cel { celspan.union(parts) }:named "credits" }
+  return { cel { union(parts) }:named "credits" }
 end
 
 return credits

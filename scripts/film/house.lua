@@ -1,5 +1,4 @@
 -- Houses with snow on them, a little crooked: for the street, and small ones for the painted town.
-local celspan = require "celspan"
 local shapes = require "demo.shapes"
 
 local house = {}
@@ -11,16 +10,16 @@ local function window(parts, panes, x, y, w, h, frame)
   local arch = ("M%g %gv%ga%g %g 0 0 1 %g 0v%gz")
   local function opening(grow, texture)
     local gw, gh = w + 2 * grow, h + 2 * grow
-    return celspan.path { texture = texture, d = arch:format(x - grow, y + h + grow, gw / 2 - gh,
+    return path { fill = texture, d = arch:format(x - grow, y + h + grow, gw / 2 - gh,
       gw / 2, gw / 2, gw, gh - gw / 2) }
   end
   local pane = opening(0, shapes.down(y, y + h, { "#39437f", "#252c62" }))
   parts[#parts + 1] = opening(w * 0.12, frame)
   parts[#parts + 1] = pane
-  parts[#parts + 1] = celspan.rect { x + w * 0.46, y, w * 0.08, h, texture = frame }
-  parts[#parts + 1] = celspan.rect { x, y + h * 0.52, w, w * 0.08, texture = frame }
-  parts[#parts + 1] = celspan.rect { x - w * 0.2, y + h, w * 1.4, w * 0.2, radius = w * 0.1,
-    texture = SNOW }
+  parts[#parts + 1] = rect { x + w * 0.46, y, w * 0.08, h, fill = frame }
+  parts[#parts + 1] = rect { x, y + h * 0.52, w, w * 0.08, fill = frame }
+  parts[#parts + 1] = rect { x - w * 0.2, y + h, w * 1.4, w * 0.2, radius = w * 0.1,
+    fill = SNOW }
   panes[#panes + 1] = pane
 end
 
@@ -33,16 +32,16 @@ local function roof_snow(parts, x, y, w, rise, random)
     points[#points + 1] = { x - 0.1 * w + 1.2 * w * u, y - rise * edge - deep * 0.3,
       deep * (0.8 + 0.5 * random("snow" .. i)) }
   end
-  parts[#parts + 1] = celspan.stroke { points = points, degree = 2, cap = "round", texture = SHADE }
+  parts[#parts + 1] = stroke { points = points, degree = 2, cap = "round", fill = SHADE }
     :translate(0, deep * 0.3)
-  parts[#parts + 1] = celspan.stroke { points = points, degree = 2, cap = "round", texture = SNOW }
+  parts[#parts + 1] = stroke { points = points, degree = 2, cap = "round", fill = SNOW }
 end
 
 local function chimney(parts, x, y, w, colour)
-  parts[#parts + 1] = celspan.rect { x, y - w * 1.7, w, w * 2.4, texture = colour }
-  parts[#parts + 1] = celspan.rect { x - w * 0.16, y - w * 1.95, w * 1.32, w * 0.5,
+  parts[#parts + 1] = rect { x, y - w * 1.7, w, w * 2.4, fill = colour }
+  parts[#parts + 1] = rect { x - w * 0.16, y - w * 1.95, w * 1.32, w * 0.5,
     radius = w * 0.25,
-    texture = SNOW }
+    fill = SNOW }
 end
 
 --- Brush marks across a wall, cut to it, so that it looks painted.
@@ -51,12 +50,12 @@ local function brushed(wall, x, y, w, h, random)
   for i = 1, 9 do
     local mx, my = x + w * (random("mx" .. i) * 0.9), y - h * (0.06 + 0.9 * random("my" .. i))
     local bright = random("mb" .. i) < 0.5
-    marks[i] = celspan.stroke { width = w * (0.03 + 0.04 * random("mw" .. i)),
+    marks[i] = stroke { width = w * (0.03 + 0.04 * random("mw" .. i)),
       taper = { w * 0.1, w * 0.2 },
       points = { { mx, my }, { mx + w * (0.16 + 0.2 * random("ml" .. i)), my + h * 0.015 } },
-      texture = celspan.rgb(bright and "#c9c4f2" or "#1c1f52", 0.13) }
+      fill = rgb(bright and "#c9c4f2" or "#1c1f52", 0.13) }
   end
-  return celspan.clip(celspan.union(marks), wall)
+  return clip(union(marks), wall)
 end
 
 --- A house whose wall stands on (x, y), w wide and h high, its gable `rise` higher; `rows` of
@@ -65,9 +64,9 @@ function house.draw(seed, x, y, w, h, fields)
   local random = celspan.random(seed)
   local parts, panes = {}, {}
   local rise = fields.rise or w * 0.5
-  local wall = celspan.polygon { { x, y + 4 }, { x, y - h }, { x + w / 2, y - h - rise },
+  local wall = polygon { { x, y + 4 }, { x, y - h }, { x + w / 2, y - h - rise },
     { x + w, y - h },
-    { x + w, y + 4 }, texture = celspan.linear { from = { x, y - h - rise },
+    { x + w, y + 4 }, fill = linear { from = { x, y - h - rise },
       to = { x + w * 0.4, y },
       { 0, fields.wall[1] }, { 1, fields.wall[2] } } }
   if fields.chimney then
@@ -84,7 +83,7 @@ function house.draw(seed, x, y, w, h, fields)
   end
   if fields.door then
     local dx, dw = x + w * fields.door, w * 0.2
-    parts[#parts + 1] = celspan.path { texture = shapes.down(y - dw * 1.7, y,
+    parts[#parts + 1] = path { fill = shapes.down(y - dw * 1.7, y,
       { "#6a4a72", "#43305c" }),
       d = ("M%g %gv%ga%g %g 0 0 1 %g 0v%gz"):format(dx, y + 4, -dw * 1.2, dw / 2, dw / 2, dw,
         dw * 1.2) }
@@ -93,7 +92,7 @@ function house.draw(seed, x, y, w, h, fields)
   local lean = fields.lean or 0
   local function place(object) return object:skew(lean, 0, x, y) end
   for i, pane in ipairs(panes) do panes[i] = place(pane) end
-  return place(celspan.union(parts)), panes
+  return place(union(parts)), panes
 end
 
 return house

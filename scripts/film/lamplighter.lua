@@ -4,8 +4,6 @@
 -- in an exposure sheet; parts that move in between (lean, head, arms, scarf, pole) are given as
 -- numbers. A pose is in the units of the drawing, where he stands on y = 560 with x = 235 between
 -- his boots; the result is moved so that this point is the origin.
-local celspan = require "celspan"
-local svg = require "celspan.svg"
 
 local lamplighter = {}
 
@@ -18,14 +16,14 @@ local NAPE = { 166, 282 }
 local POLE = { below = 150, above = 440 } -- from the hand
 local BONE = 80
 
-local SLEEVE = celspan.linear { from = { 150, 300 }, to = { 330, 460 }, { 0, "#6272bc" },
+local SLEEVE = linear { from = { 150, 300 }, to = { 330, 460 }, { 0, "#6272bc" },
   { 0.6, "#7080cc" }, { 1, "#4b569c" } }
-local FAR_SLEEVE, SHADE, WOOD = "#3b4585", celspan.rgb("#1d1f4a", 0.4), "#8a5f4c"
-local WOOL = celspan.linear { from = { 170, 0 }, to = { -60, 0 }, { 0, "#c8433c" },
+local FAR_SLEEVE, SHADE, WOOD = "#3b4585", rgb("#1d1f4a", 0.4), "#8a5f4c"
+local WOOL = linear { from = { 170, 0 }, to = { -60, 0 }, { 0, "#c8433c" },
   { 1, "#ee6a45" } }
 local IRON = "#372c56"
 
-local nothing = celspan.union {}
+local nothing = union {}
 
 -- ---------------------------------------------------------------- steps
 
@@ -87,7 +85,7 @@ end
 
 local function sleeve(from, to, side, texture, dx, dy)
   local bend = elbow(from, to, side)
-  return celspan.stroke { degree = 2, cap = "round", texture = texture, points = {
+  return stroke { degree = 2, cap = "round", fill = texture, points = {
     { from[1] + dx, from[2] + dy, 62 }, { bend[1] + dx, bend[2] + dy, 60 },
     { to[1] + dx, to[2] + dy, 46 } } }
 end
@@ -105,7 +103,7 @@ local function tail(pose, phase, length)
                       from[2] + length * u * math.sin(turn) * 0.9 + wave * math.cos(turn),
                         34 + 14 * u }
   end
-  return celspan.stroke { points = points, degree = 3, texture = WOOL }
+  return stroke { points = points, degree = 3, fill = WOOL }
 end
 
 --- The pole through the hand, leaning by `turn` from upright, with the wire cage at its tip.
@@ -113,14 +111,14 @@ local function pole(x, y, turn)
   local up = POLE.above
   local cage = {}
   for side = -1, 1, 2 do
-    cage[#cage + 1] = celspan.stroke { degree = 2, width = 5, cap = "round", texture = IRON,
+    cage[#cage + 1] = stroke { degree = 2, width = 5, cap = "round", fill = IRON,
       points = {
       { 0, -up }, { 20 * side, -up - 14 }, { 13 * side, -up - 40 } } }
   end
-  local shaft = celspan.stroke { texture = WOOD, cap = "round", points = {
+  local shaft = stroke { fill = WOOD, cap = "round", points = {
     { 0, POLE.below, 15 }, { 0, -up, 10 } } }
-  local ring = celspan.rect { -8, -up - 4, 16, 24, radius = 4, texture = IRON }
-  return celspan.union { shaft, ring, table.unpack(cage) }:rotate(turn):translate(x, y)
+  local ring = rect { -8, -up - 4, 16, 24, radius = 4, fill = IRON }
+  return union { shaft, ring, table.unpack(cage) }:rotate(turn):translate(x, y)
 end
 
 local function tip_of(hand, turn)
@@ -174,10 +172,10 @@ local function limbs(parts, pose, step)
   local staff = pole(pose.far[1], pose.far[2], pose.pole)
   local held = hand("grip", pose.far, pose.far_turn)
   local far_sleeve = sleeve(far, pose.far, 1, FAR_SLEEVE, 0, 0)
-  parts["far-sleeve"] = put(pose.pole_behind and celspan.union { staff, far_sleeve } or far_sleeve)
-  parts["pole"] = put(pose.pole_behind and held or celspan.union { staff, held })
-  parts["near-sleeve"] = put(celspan.union {
-    celspan.clip(sleeve(near, pose.near, 1, SHADE, -5, 9),
+  parts["far-sleeve"] = put(pose.pole_behind and union { staff, far_sleeve } or far_sleeve)
+  parts["pole"] = put(pose.pole_behind and held or union { staff, held })
+  parts["near-sleeve"] = put(union {
+    clip(sleeve(near, pose.near, 1, SHADE, -5, 9),
       art.parts.coat:rotate(pose.lean, HIP[1], HIP[2]):translate(0, pose.rise)),
     hand(pose.mitten, pose.near, pose.near_turn), sleeve(near, pose.near, 1, SLEEVE, 0, 0) })
   parts["mitten-grip"], parts["mitten-open"] = put(nothing), put(nothing)
@@ -202,7 +200,7 @@ function lamplighter.draw(fields)
   end
   face(parts, pose)
   limbs(parts, pose, step)
-  parts["scarf-tails"] = put(celspan.union { tail(pose, 0, 176), tail(pose, 1, 140) })
+  parts["scarf-tails"] = put(union { tail(pose, 0, 176), tail(pose, 1, 140) })
   parts.coat, parts.scarf = upper, upper
   parts.head = function(head) return upper(head:rotate(pose.head, NECK[1], NECK[2])) end
   local squash = pose.squash

@@ -1,7 +1,5 @@
 -- The camera of a shot: the positions of a plane's points on the frame, and the gel that darkens
 -- the corners.
-local celspan = require "celspan"
-local multiplane = require "celspan.multiplane"
 
 local lens = {}
 
@@ -10,7 +8,7 @@ local WIDTH, HEIGHT, FOCAL = 1920, 1080, 1000
 lens.film, lens.FOCAL = { WIDTH, HEIGHT }, FOCAL
 
 local deep = celspan.gel(0.34, 0.33, 0.52)
-local gel = celspan.circle { centre = { 0, 0 }, radius = 1.5, texture = celspan.radial {
+local gel = circle { 0, 0, 1.5, fill = radial {
   centre = { 0, 0 }, radius = 1, { 0, celspan.gel(1, 1, 1) }, { 0.5, celspan.gel(1, 1, 1) },
   { 0.78, celspan.gel(0.74, 0.74, 0.84) }, { 1, deep } } }
 
@@ -40,7 +38,7 @@ end
 
 --- A cel of these objects at depth z, under this front light.
 function Stack:plane(name, z, front, ...)
-  self:add(z, celspan.cel { celspan.union { ... }, front = front }:named(name))
+  self:add(z, celspan.cel { union { ... }, front = front }:named(name))
 end
 
 --- Cels at depth z; nil values are left out.

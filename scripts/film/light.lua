@@ -1,6 +1,4 @@
 -- Light: the light of the dusk, and the light that a flame adds around it.
-local celspan = require "celspan"
-local keys = require "celspan.keys"
 
 local light = {}
 
@@ -34,10 +32,10 @@ function light.about(x, y, reach, strength, ambient)
   local texture = { centre = { x, y }, radius = reach }
   for i, stop in ipairs(falloff) do
     local k = strength * stop[2]
-    texture[i] = { stop[1], celspan.rgb((ambient[1] + k * light.FLAME[1]) / gain,
+    texture[i] = { stop[1], rgb((ambient[1] + k * light.FLAME[1]) / gain,
       (ambient[2] + k * light.FLAME[2]) / gain, (ambient[3] + k * light.FLAME[3]) / gain) }
   end
-  return { texture = celspan.radial(texture), gain = gain }
+  return { texture = radial(texture), gain = gain }
 end
 
 --- A flicker that never goes out; its mean is 1.

@@ -5,7 +5,6 @@
 -- Every layer is a separate picture, made with brushes: strokes with a width that swells and
 -- tapers.
 package.path = "./?.lua;./scripts/?.lua;" .. package.path
-local celspan = require "celspan"
 local draw = require "scripts.paintings.draw"
 local paintings = require "tests.support.paintings"
 local plan = require "film.plan"
@@ -22,7 +21,7 @@ local function brush(x, y, long, wide, turn, bow, colour, alpha)
   local a = math.rad(turn)
   local dx, dy = long * math.cos(a), long * math.sin(a)
   local px, py = -dy / long * bow, dx / long * bow
-  return celspan.stroke { degree = 3, cap = "round", texture = celspan.rgb(colour, alpha),
+  return stroke { degree = 3, cap = "round", fill = rgb(colour, alpha),
     points = {
     { x, y, 0 }, { x + 0.2 * dx + px, y + 0.2 * dy + py, wide * 1.3 },
     { x + 0.6 * dx + px, y + 0.6 * dy + py, wide }, { x + dx, y + dy, 0 } } }
@@ -70,7 +69,7 @@ local function peaks()
   for i, p in ipairs(tops) do outline[i] = p end
   outline[#outline + 1] = { LEFT + W, BOTTOM }
   outline[#outline + 1] = { LEFT, BOTTOM }
-  local land = celspan.polygon(outline)
+  local land = polygon(outline)
   local random, marks = celspan.random "peaks", {}
   for i = 2, #tops - 1 do
     local top, before, after = tops[i], tops[i - 1], tops[i + 1]
@@ -87,19 +86,19 @@ local function peaks()
       end
     end
   end
-  return { land, celspan.clip(celspan.union(marks), land) }
+  return { land, clip(union(marks), land) }
 end
 
 --- A fir with snow on its boughs.
 local function fir(parts, x, foot, height, colour, snow)
   for i = 0, 5 do
     local y, w = foot - height + height * 0.15 * i, height * (0.07 + 0.045 * i)
-    parts[#parts + 1] = celspan.path { texture = colour,
+    parts[#parts + 1] = path { fill = colour,
       d = ("M%g %gQ%g %g %g %gQ%g %g %g %gQ%g %g %g %gZ"):format(
       x, y - height * 0.04, x + w * 0.3, y + height * 0.1, x + w, y + height * 0.21, x + w * 0.4,
         y + height * 0.2,
       x, y + height * 0.19, x - w * 0.4, y + height * 0.2, x - w, y + height * 0.21) }
-    parts[#parts + 1] = celspan.path { texture = snow,
+    parts[#parts + 1] = path { fill = snow,
       d = ("M%g %gQ%g %g %g %gQ%g %g %g %gZ"):format(
       x, y - height * 0.045, x - w * 0.3, y + height * 0.08, x - w * 0.98, y + height * 0.2,
       x - w * 0.3, y + height * 0.13, x + w * 0.1, y + height * 0.05) }
@@ -133,7 +132,7 @@ local function slope(r)
       (x - plan.MIDDLE) / 60, 4,
       i % 2 == 0 and SNOW or SHADE, 0.5)
   end
-  return { land, celspan.clip(celspan.union(marks), land) }
+  return { land, clip(union(marks), land) }
 end
 
 --- The road up the hill, between the houses of its rows.
@@ -146,7 +145,7 @@ local function road(from, to)
       * (low == high and 1 or r - low)
     points[#points + 1] = { plan.road(r), y + 6, 8 + 7 * (r - 1) }
   end
-  return celspan.stroke { points = points, degree = 3, cap = "round", texture = "#cfd7f6" }
+  return stroke { points = points, degree = 3, cap = "round", fill = "#cfd7f6" }
 end
 
 local function town()
@@ -190,7 +189,7 @@ local function near()
 end
 
 local layers = {
-  { name = "clouds", celspan.union(clouds()) },
+  { name = "clouds", union(clouds()) },
   { name = "peaks", table.unpack(peaks()) },
   { name = "wood", table.unpack(wood()) },
   { name = "town", table.unpack(town()) },
@@ -198,7 +197,7 @@ local layers = {
 }
 
 for _, layer in ipairs(layers) do
-  local art = celspan.union(table.move(layer, 1, #layer, 1, {})):translate(-LEFT, -TOP)
+  local art = union(table.move(layer, 1, #layer, 1, {})):translate(-LEFT, -TOP)
   local picture = draw(art, W, H, FINE)
   layer.x, layer.y, layer.png = picture.x, picture.y, picture.png
 end

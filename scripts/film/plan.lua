@@ -1,6 +1,5 @@
 -- The plan of the town: the positions of its houses, and their parts. The painter draws the houses
 -- of this plan, and the film lights their windows.
-local celspan = require "celspan"
 local house = require "film.house"
 
 local plan = {}
@@ -77,24 +76,24 @@ end
 --- The church at the top: its tower, its spire, and a round window.
 local function church()
   local x, y = plan.MIDDLE - 4, plan.ground(1, plan.MIDDLE) + 6
-  local wall = celspan.linear { from = { x - 30, 0 }, to = { x + 34, 0 }, { 0, "#8a80c2" },
+  local wall = linear { from = { x - 30, 0 }, to = { x + 34, 0 }, { 0, "#8a80c2" },
     { 1, "#5c5298" } }
-  local tower = celspan.polygon { { x - 26, y }, { x - 24, y - 150 }, { x + 24, y - 150 },
-    { x + 26, y }, texture = wall }
-  local spire = celspan.polygon { { x - 32, y - 146 }, { x, y - 290 }, { x + 32, y - 146 },
-    texture = "#4a4590" }
-  local snow = celspan.polygon { { x - 34, y - 144 }, { x, y - 292 }, { x + 4, y - 250 },
+  local tower = polygon { { x - 26, y }, { x - 24, y - 150 }, { x + 24, y - 150 },
+    { x + 26, y }, fill = wall }
+  local spire = polygon { { x - 32, y - 146 }, { x, y - 290 }, { x + 32, y - 146 },
+    fill = "#4a4590" }
+  local snow = polygon { { x - 34, y - 144 }, { x, y - 292 }, { x + 4, y - 250 },
     { x - 12, y - 176 }, { x - 6, y - 144 },
-    texture = "#dfe4fb" }
+    fill = "#dfe4fb" }
   local nave, panes = house.draw("nave", x + 18, y, 84, 64,
     { wall = WALLS[2], rise = 46, rows = { { 0.3, 0.7, at = 0.72 } },
     window = 0.16, frame = "#3a3870" })
-  local rose = celspan.circle { centre = { x, y - 112 }, radius = 11, texture = "#2c3370" }
-  local door = celspan.path { texture = "#2c3370",
+  local rose = circle { x, y - 112, 11, fill = "#2c3370" }
+  local door = path { fill = "#2c3370",
     d = ("M%g %gv-22a9 9 0 0 1 18 0v22z"):format(x - 9, y - 44) }
   panes[#panes + 1], panes[#panes + 2] = rose, door
-  local star = celspan.circle { centre = { x, y - 296 }, radius = 4, texture = "#8a7a70" }
-  return { row = 1, object = celspan.union { nave, tower, spire, snow, rose, door, star },
+  local star = circle { x, y - 296, 4, fill = "#8a7a70" }
+  return { row = 1, object = union { nave, tower, spire, snow, rose, door, star },
     panes = panes, x = x, y = y - 90,
     width = 90 }
 end

@@ -1,5 +1,4 @@
 -- Falling snow: flakes that fall again and again, each on its own path and with its own sway.
-local celspan = require "celspan"
 
 local snow = {}
 
@@ -8,12 +7,12 @@ local FLAKE = "#e9ecff"
 --- A flake of radius 1 about (0, 0): sharp, or out of focus.
 local function flake(softness)
   if softness == 0 then
-    return celspan.circle { centre = { 0, 0 }, radius = 1, texture = FLAKE }
+    return circle { 0, 0, 1, fill = FLAKE }
   end
-  local clear = celspan.rgb(FLAKE, 0)
-  return celspan.circle { centre = { 0, 0 }, radius = 1, texture = celspan.radial {
-    centre = { 0, 0 }, radius = 1, { 0, celspan.rgb(FLAKE, 0.62) },
-    { 1 - softness, celspan.rgb(FLAKE, 0.5) }, { 1, clear } } }
+  local clear = rgb(FLAKE, 0)
+  return circle { 0, 0, 1, fill = radial {
+    centre = { 0, 0 }, radius = 1, { 0, rgb(FLAKE, 0.62) },
+    { 1 - softness, rgb(FLAKE, 0.5) }, { 1, clear } } }
 end
 
 --- A curtain of snow, a little larger than a frame of 1920 x 1080: a function of the time and of
@@ -37,7 +36,7 @@ function snow.curtain(seed, fields)
       local y = (f.y + f.fall * time + 0.25 * sway + dy) % height - margin
       list[i] = f.object:translate(x, y)
     end
-    return celspan.union(list)
+    return union(list)
   end
 end
 

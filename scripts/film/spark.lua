@@ -1,5 +1,4 @@
 -- The little one: a spark that lives at the tip of the lamplighter's pole.
-local celspan = require "celspan"
 local light = require "film.light"
 local shapes = require "demo.shapes"
 
@@ -14,20 +13,20 @@ function spark.draw(time, x, y, size, life, trail)
   local breath = light.flicker(time)
   local glow = shapes.glow(x, y, size * 9 * (0.5 + 0.5 * life), 1, 0.46, 0.13, 0.09 * life * breath)
   local core = size * (0.55 + 0.45 * life) * breath
-  local ember = celspan.mix("#7a2418", "#ffb048", life)
+  local ember = mix("#7a2418", "#ffb048", life)
   local body = {
-    celspan.circle { centre = { x, y }, radius = core, texture = celspan.radial {
-      centre = { x, y }, radius = core, { 0, celspan.mix("#d0482a", "#fff6dc", life) },
-      { 0.45, celspan.mix("#b03a22", "#ffe09a", life) }, { 1, ember } } },
+    circle { x, y, core, fill = radial {
+      centre = { x, y }, radius = core, { 0, mix("#d0482a", "#fff6dc", life) },
+      { 0.45, mix("#b03a22", "#ffe09a", life) }, { 1, ember } } },
   }
   if trail and #trail > 3 then
     local points = {}
     for i, p in ipairs(trail) do points[i] = { p[1], p[2], core * 1.5 * i / #trail } end
-    table.insert(body, 1, celspan.stroke { points = points, degree = 3, cap = "round",
-      texture = celspan.rgb("#ffab4a", 0.7 * life) })
+    table.insert(body, 1, stroke { points = points, degree = 3, cap = "round",
+      fill = rgb("#ffab4a", 0.7 * life) })
   end
-  return celspan.cel { glow, front = BRIGHT }:named "spark glow",
-    celspan.cel { celspan.union(body), front = light.scaled({ 1.5, 1.35, 1.2 }, 0.6 + 0.6 * life) }
+  return cel { glow, front = BRIGHT }:named "spark glow",
+    cel { union(body), front = light.scaled({ 1.5, 1.35, 1.2 }, 0.6 + 0.6 * life) }
       :named "spark"
 end
 
@@ -49,11 +48,11 @@ function spark.burst(age, x, y, reach, lasts)
     local far = reach * (0.4 + 0.6 * (i * 7 % 13) / 13) * out
     local tail = far - reach * 0.34 * (1 - u)
     local fall, wide = 130 * u * u, reach * (0.05 + 0.03 * (i % 3)) * (1 - u)
-    parts[i] = celspan.stroke { cap = "round", texture = "#ffd48a", points = {
+    parts[i] = stroke { cap = "round", fill = "#ffd48a", points = {
       { x + math.max(0, tail) * dx, y + math.max(0, tail) * dy + fall, 0.2 * wide },
       { x + far * dx, y + far * dy + fall, wide } } }
   end
-  return celspan.cel { celspan.union(parts), front = { 2, 1.7, 1.3 } }:named "burst"
+  return cel { union(parts), front = { 2, 1.7, 1.3 } }:named "burst"
 end
 
 --- A puff of smoke that rises from (x, y), rolls up and thins out; `thick` is 1 by default.
@@ -66,11 +65,11 @@ function spark.puff(age, x, y, size, thick)
     local radius = size * (0.3 + 0.5 * out) * (0.7 + 0.3 * (i % 3))
     local px = x + size * (0.75 * math.cos(a) * out + 0.5 * u * math.sin(3 * u + i))
     local py = y - size * (2.3 * out * (0.6 + 0.1 * i)) + size * 0.4 * math.sin(a)
-    parts[i] = celspan.circle { centre = { px, py }, radius = radius, texture = celspan.radial {
-      centre = { px, py }, radius = radius, { 0, celspan.rgb("#c5c2e6", 0.5 * paint * (1 - u)) },
-      { 0.6, celspan.rgb("#b4b1dc", 0.34 * paint * (1 - u)) }, { 1, celspan.rgb("#a9a6d6", 0) } } }
+    parts[i] = circle { px, py, radius, fill = radial {
+      centre = { px, py }, radius = radius, { 0, rgb("#c5c2e6", 0.5 * paint * (1 - u)) },
+      { 0.6, rgb("#b4b1dc", 0.34 * paint * (1 - u)) }, { 1, rgb("#a9a6d6", 0) } } }
   end
-  return celspan.cel { celspan.union(parts) }:named "puff"
+  return cel { union(parts) }:named "puff"
 end
 
 return spark

@@ -1,6 +1,5 @@
 -- The street: sky, a row of houses, the snow on the ground, and a branch in front of the lens. The
 -- lamp and the lamplighter stand on the ground of this set; every plane is drawn as seen at rest.
-local celspan = require "celspan"
 local house = require "film.house"
 local shapes = require "demo.shapes"
 
@@ -14,12 +13,10 @@ local WALLS = { { "#7d7bc0", "#4b4a92" }, { "#8a7cb8", "#544888" }, { "#6d7cc0",
 local function stars()
   local random, parts = celspan.random "street stars", {}
   for i = 1, 46 do
-    parts[i] = celspan.circle { centre = { -100 + 2120 * random("x" .. i),
-      460 * random("y" .. i) ^ 1.4 },
-      radius = 1 + 1.5 * random("r" .. i),
-        texture = celspan.rgb("#f4edff", 0.35 + 0.5 * random("a" .. i)) }
+    parts[i] = circle { -100 + 2120 * random("x" .. i), 460 * random("y" .. i) ^ 1.4,
+      1 + 1.5 * random("r" .. i), fill = rgb("#f4edff", 0.35 + 0.5 * random("a" .. i)) }
   end
-  return celspan.union(parts)
+  return union(parts)
 end
 
 --- The roofs of the next street, in the haze, and the hill with its church behind them.
@@ -28,27 +25,27 @@ local function far_roofs()
     shapes.ridge({ { -300, 700 }, { 300, 660 }, { 760, 560 }, { 1160, 500 }, { 1560, 580 },
       { 2220, 690 } }, 860,
       shapes.down(500, 800, { "#5a5ca6", "#7f7cbe" })),
-    celspan.polygon { { 1064, 540 }, { 1068, 420 }, { 1088, 330 }, { 1108, 420 }, { 1112, 540 },
-      texture = "#4c4f9a" },
+    polygon { { 1064, 540 }, { 1068, 420 }, { 1088, 330 }, { 1108, 420 }, { 1112, 540 },
+      fill = "#4c4f9a" },
   }
   local x = -160
   while x < 2080 do
     local w = 120 + 70 * random("w" .. x)
     local top = 700 - 40 * random("h" .. x) - 80 * math.exp(-((x - 1100) / 360) ^ 2)
     local roof = 0.4 * w
-    parts[#parts + 1] = celspan.polygon { { x, 860 }, { x, top }, { x + w / 2, top - roof },
+    parts[#parts + 1] = polygon { { x, 860 }, { x, top }, { x + w / 2, top - roof },
       { x + w, top },
-      { x + w, 860 }, texture = shapes.down(top - roof, 820, { "#54559c", "#8582c2" }) }
-    parts[#parts + 1] = celspan.stroke { texture = "#7376b6", cap = "round", join = "round",
+      { x + w, 860 }, fill = shapes.down(top - roof, 820, { "#54559c", "#8582c2" }) }
+    parts[#parts + 1] = stroke { fill = "#7376b6", cap = "round", join = "round",
       points = {
       { x - 8, top + 6, 8 }, { x + w / 2, top - roof, 15 }, { x + w + 8, top + 6, 8 } } }
     x = x + w * 1.05
   end
-  return celspan.union(parts)
+  return union(parts)
 end
 
-street.sky = celspan.union {
-  celspan.rect { -300, -200, 2520, 1100, texture = shapes.down(-60, 760, { "#0f1440", "#262a6c",
+street.sky = union {
+  rect { -300, -200, 2520, 1100, fill = shapes.down(-60, 760, { "#0f1440", "#262a6c",
     "#4d4a96", "#8d7bb8" }) },
   stars(), far_roofs(),
 }
@@ -79,7 +76,7 @@ local function houses()
   parts[#parts + 1] = shapes.ridge({ { -300, 800 }, { -60, 790 }, { 200, 804 }, { 480, 788 },
     { 760, 802 }, { 980, 806 }, { 1200, 792 }, { 1420, 800 }, { 1680, 790 }, { 1960, 802 },
     { 2220, 796 } }, 900, shapes.down(780, 880, { "#b9c1ee", "#9aa5e0" }))
-  return celspan.union(parts)
+  return union(parts)
 end
 street.houses = houses()
 
@@ -95,28 +92,28 @@ local function ground()
   for i = 1, 26 do
     local x, y = -200 + 2200 * random("x" .. i), 870 + 200 * random("y" .. i)
     local long = 90 + 190 * random("l" .. i)
-    parts[#parts + 1] = celspan.stroke { degree = 2, taper = { long * 0.4, long * 0.5 },
-      width = 4 + 9 * random("w" .. i), texture = celspan.rgb(i % 3 == 0 and "#f2f5ff" or "#8f9bd6",
+    parts[#parts + 1] = stroke { degree = 2, taper = { long * 0.4, long * 0.5 },
+      width = 4 + 9 * random("w" .. i), fill = rgb(i % 3 == 0 and "#f2f5ff" or "#8f9bd6",
         0.4),
       points = { { x, y }, { x + long * 0.5, y - 7 }, { x + long, y + 3 } } }
   end
-  return celspan.union(parts)
+  return union(parts)
 end
 street.ground = ground()
 
 --- A footprint, and a shadow on the ground of a given width and darkness.
 function street.footprint(x, y)
-  return celspan.union {
-    celspan.ellipse { centre = { x, y }, radii = { 19, 6 }, texture = "#7f8ccc" },
-    celspan.ellipse { centre = { x + 1, y + 2 }, radii = { 17, 4 }, texture = "#96a2dc" },
+  return union {
+    ellipse { x, y, 19, 6, fill = "#7f8ccc" },
+    ellipse { x + 1, y + 2, 17, 4, fill = "#96a2dc" },
   }
 end
 
 function street.shadow(x, y, width, dark)
-  return celspan.circle { centre = { 0, 0 }, radius = 1,
-    texture = celspan.radial { centre = { 0, 0 },
-    radius = 1, { 0, celspan.rgb("#23276a", dark) }, { 0.5, celspan.rgb("#23276a", dark * 0.6) },
-    { 1, celspan.rgb("#23276a", 0) } } }:scale(width, width * 0.17):translate(x, y)
+  return circle { 0, 0, 1,
+    fill = radial { centre = { 0, 0 },
+    radius = 1, { 0, rgb("#23276a", dark) }, { 0.5, rgb("#23276a", dark * 0.6) },
+    { 1, rgb("#23276a", 0) } } }:scale(width, width * 0.17):translate(x, y)
 end
 
 -- ---------------------------------------------------------------- before the lens
@@ -126,8 +123,8 @@ local BARK, SNOW, BERRY = "#2a2148", "#dfe5fb", "#d8413f"
 local function twig(points, snow)
   local lifted = {}
   for i, p in ipairs(points) do lifted[i] = { p[1], p[2] - p[3] * 0.42, p[3] * snow } end
-  return celspan.stroke { points = points, degree = 3, cap = "round", texture = BARK },
-    celspan.stroke { points = lifted, degree = 3, cap = "round", texture = SNOW,
+  return stroke { points = points, degree = 3, cap = "round", fill = BARK },
+    stroke { points = lifted, degree = 3, cap = "round", fill = SNOW,
       taper = { 30, 60 } }
 end
 
@@ -135,12 +132,12 @@ local function berries(parts, x, y, count)
   for i = 1, count do
     local a = i * 2.4
     local bx, by = x + 9 * math.sqrt(i) * math.cos(a), y + 26 + 9 * math.sqrt(i) * math.sin(a)
-    parts[#parts + 1] = celspan.circle { centre = { bx, by }, radius = 12,
-      texture = celspan.radial {
+    parts[#parts + 1] = circle { bx, by, 12,
+      fill = radial {
       centre = { bx - 4, by - 5 }, radius = 17, { 0, "#ff8a6a" }, { 0.5, BERRY },
         { 1, "#8e2038" } } }
   end
-  parts[#parts + 1] = celspan.path { texture = SNOW,
+  parts[#parts + 1] = path { fill = SNOW,
     d = ("M%g %gq6 -26 32 -24q26 0 28 22q-14 10 -28 4q-18 8 -32 -2z")
     :format(x - 30, y + 14) }
 end
@@ -160,7 +157,7 @@ local function branch()
   berries(parts, 520, 250, 7)
   berries(parts, 205, 372, 6)
   berries(parts, 700, 110, 4)
-  return celspan.union(parts)
+  return union(parts)
 end
 
 local bank = shapes.ridge({ { -300, 1010 }, { 0, 960 }, { 180, 990 }, { 420, 1052 }, { 760, 1074 },

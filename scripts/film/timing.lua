@@ -19,9 +19,4 @@ local timing = {
   windows = 20.5, star_rises = 22.3, star = 24.2, credits = 23.8, sleep = 25.4, fade = 28.3,
 }
 
---- 0 before `from`, 1 after `from + length`.
-function timing.share(time, from, length)
-  return math.max(0, math.min(1, (time - from) / length))
-end
-
 return timing

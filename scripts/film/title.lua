@@ -1,7 +1,4 @@
 -- The title, written in light: strokes that a spark draws, one after another.
-local celspan = require "celspan"
-local ease = require "celspan.ease"
-local motion = require "celspan.motion"
 local timing = require "film.timing"
 
 local title = {}
@@ -58,8 +55,8 @@ local function state_of(s, time)
   local pace = (timing.title.written - timing.title.from) / LENGTH
   local age = (time - timing.title.from) / pace
   local gone = (time - timing.title.leaves) / 1.1 * LENGTH
-  return hand(math.max(0, math.min(1, (age - s.from) / s.length))),
-    math.max(0, math.min(1, (gone - s.from) / s.length)), age
+  return hand(motion.span(age, s.from, s.length)),
+    motion.span(gone, s.from, s.length), age
 end
 
 -- Lines over one another, {width, opacity of the paint}: together they fall off like a glow.
@@ -73,20 +70,20 @@ function title.draw(time)
     local to, from = state_of(s, time)
     if to > from then
       local function line(width, texture)
-        return celspan.stroke { d = s.d, width = width, cap = "round", join = "round", from = from,
+        return stroke { d = s.d, width = width, cap = "round", join = "round", from = from,
           to = to,
-          taper = { 5, 14 }, texture = texture }
+          taper = { 5, 14 }, fill = texture }
       end
       for _, halo in ipairs(halos) do
-        glow[#glow + 1] = line(halo[1], celspan.rgb(1, 0.44, 0.13, halo[2]))
+        glow[#glow + 1] = line(halo[1], rgb(1, 0.44, 0.13, halo[2]))
       end
       lines[#lines + 1] = line(8.5, "#ffc566")
       lines[#lines + 1] = line(4.2, "#fff3d2")
     end
   end
-  local function place(list) return celspan.union(list):scale(SCALE):translate(X, Y) end
-  return celspan.cel { place(glow), front = { 9, 9, 9 } }:named "title glow",
-    celspan.cel { place(lines), front = { 1.25, 1.15, 1 } }:named "title"
+  local function place(list) return union(list):scale(SCALE):translate(X, Y) end
+  return cel { place(glow), front = { 9, 9, 9 } }:named "title glow",
+    cel { place(lines), front = { 1.25, 1.15, 1 } }:named "title"
 end
 
 --- The position of the spark that writes it: on a stroke, or between two.

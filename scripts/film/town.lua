@@ -1,7 +1,5 @@
 -- The town on its hill: the painting, plane by plane, under a sky that turns from dusk to night,
 -- with windows and lamps that light up.
-local celspan = require "celspan"
-local keys = require "celspan.keys"
 local layers = require "celspan.layers"
 local lamp = require "film.lamp"
 local lens = require "film.lens"
@@ -25,8 +23,8 @@ end
 -- ---------------------------------------------------------------- the sky
 
 local function turning(dusk, night)
-  return keys { { 0, celspan.mix(dusk, dusk, 0) }, { 6, celspan.mix(dusk, night, 0.25) },
-    { 19.9, celspan.mix(dusk, night, 0.85) }, { 26, celspan.mix(night, night, 0), "inOutSine" } }
+  return keys { { 0, mix(dusk, dusk, 0) }, { 6, mix(dusk, night, 0.25) },
+    { 19.9, mix(dusk, night, 0.85) }, { 26, mix(night, night, 0), "inOutSine" } }
 end
 
 local air = { { 0, turning("#0f1547", "#060820") }, { 0.3, turning("#262c74", "#0b0f33") },
@@ -36,8 +34,8 @@ local air = { { 0, turning("#0f1547", "#060820") }, { 0.3, turning("#262c74", "#
 local function sky(time)
   local texture = { from = { 0, -560 }, to = { 0, 660 } }
   for i, stop in ipairs(air) do texture[i] = { stop[1], stop[2]:at(time) } end
-  return celspan.rect { plan.LEFT - 200, plan.TOP, plan.WIDTH + 400, 1500,
-    texture = celspan.linear(texture) }
+  return rect { plan.LEFT - 200, plan.TOP, plan.WIDTH + 400, 1500,
+    fill = linear(texture) }
 end
 
 local strewn = {}
@@ -55,14 +53,14 @@ end
 local function stars(time)
   local parts = {}
   for _, s in ipairs(strewn) do
-    local out = math.max(0, math.min(1, (time - s.from) / 2))
+    local out = motion.span(time, s.from, 2)
     if out > 0 then
       local twinkle = 0.75 + 0.25 * math.sin(time * 3 + s.phase)
-      parts[#parts + 1] = celspan.circle { centre = { s.x, s.y }, radius = s.r,
-        texture = celspan.rgb("#f6efff", out * twinkle) }
+      parts[#parts + 1] = circle { s.x, s.y, s.r,
+        fill = rgb("#f6efff", out * twinkle) }
     end
   end
-  return celspan.union(parts)
+  return union(parts)
 end
 
 -- ---------------------------------------------------------------- windows and lamps
@@ -106,15 +104,15 @@ local function windows(time, from, sleep)
   for _, home in ipairs(plan.houses) do
     local level = level_of(home, time, from, sleep)
     if level > 0.01 then
-      local colour = celspan.mix("#ffb54d", "#ffdc8f", home.hue)
+      local colour = mix("#ffb54d", "#ffdc8f", home.hue)
       for _, pane in ipairs(home.panes) do
-        panes[#panes + 1] = pane:with { texture = colour }:fade(math.min(1, level))
+        panes[#panes + 1] = pane:with { fill = colour }:fade(math.min(1, level))
       end
       glows[#glows + 1] = shapes.glow(home.x, home.y + home.width * 0.1, home.width * 1.25, 1, 0.5,
         0.16, 0.036 * level)
     end
   end
-  return celspan.union(panes), celspan.union(glows)
+  return union(panes), union(glows)
 end
 
 --- The brightness of lamp i of the plan; the first is the one of the story.
@@ -122,7 +120,7 @@ local function lamp_level(i, time, from)
   if i == 1 then return time < from - 1 and 0 or 1 end
   local at = plan.lamps[i]
   local age = time - from - math.abs(at[1] - SOURCE[1]) / 420 - 0.2
-  return math.max(0, math.min(1, age / 0.25))
+  return motion.span(age, 0, 0.25)
 end
 
 local function lamps(time, from, ambient)
@@ -131,7 +129,7 @@ local function lamps(time, from, ambient)
     local x, y = at[1], at[2] - 590 * at[3]
     local level = lamp_level(i, time, from) * light.flicker(time + i)
     local function put(object) return lamp.place(object, x, y, at[3]) end
-    posts[#posts + 1] = put(celspan.union { lamp.post, lamp.frame })
+    posts[#posts + 1] = put(union { lamp.post, lamp.frame })
     lit[#lit + 1] = put((lamp.glass(level, ambient)))
     if level > 0 then
       glows[#glows + 1] = shapes.glow(x, y, 900 * at[3], 1, 0.52, 0.17, 0.06 * level)
@@ -139,7 +137,7 @@ local function lamps(time, from, ambient)
         0.26):translate(x, at[2])
     end
   end
-  return celspan.union(posts), celspan.union(lit), celspan.union(glows)
+  return union(posts), union(lit), union(glows)
 end
 
 -- ---------------------------------------------------------------- the set

@@ -3,13 +3,12 @@
 --
 --   celspan render scripts/hat/head.lua -o head/head.####.png
 --   celspan track head/head.####.png --from 1 --at 240,135,160,165 -o scripts/hat/track.json
-local celspan = require "celspan"
 local random = celspan.random "head"
 
 local head = { size = { 640, 360 }, frames = 72, fps = 24 }
 
 local function disc(x, y, rx, ry, texture)
-  return celspan.ellipse { centre = { x, y }, radii = { rx, ry }, texture = texture }
+  return ellipse { x, y, rx, ry, fill = texture }
 end
 
 --- `count` copies of a thing, each moved by `place`.
@@ -18,7 +17,7 @@ local function scatter(count, place)
   for i = 1, count do
     list[i] = place(function(label, m, n) return random(label .. i, m, n) end)
   end
-  return celspan.union(list)
+  return union(list)
 end
 
 local browns = { "#5b2f22", "#6f3b27", "#7f482c", "#4a261e" }
@@ -37,27 +36,27 @@ local freckles = scatter(46, function(number)
     1.2 + 1.6 * number "r", "#b5714f")
 end)
 
-local skin = celspan.radial { centre = { -24, -26 }, radius = 150, { 0, "#fbd3ae" },
+local skin = radial { centre = { -24, -26 }, radius = 150, { 0, "#fbd3ae" },
   { 1, "#d2936c" } }
 
 local function eye(x)
-  return celspan.union {
+  return union {
     disc(x, -6, 17, 13, "#fffaf0"), disc(x, -5, 9, 10, "#3f6f62"), disc(x, -5, 5, 6, "#1d1614"),
     disc(x - 3, -9, 3, 3, "#ffffff"),
-    celspan.stroke { points = { { x - 19, -30 }, { x, -37 }, { x + 19, -30 } }, width = 6,
-      degree = 2, cap = "round", taper = { 10, 10 }, texture = "#5b2f22" },
+    stroke { points = { { x - 19, -30 }, { x, -37 }, { x + 19, -30 } }, width = 6,
+      degree = 2, cap = "round", taper = { 10, 10 }, fill = "#5b2f22" },
   }
 end
 
-local face = celspan.union {
+local face = union {
   disc(-92, 8, 15, 22, "#d2936c"), disc(92, 8, 15, 22, "#d2936c"), disc(0, 4, 90, 104, skin),
   freckles, eye(-36), eye(36),
-  celspan.stroke { points = { { -4, 2 }, { 9, 24 }, { -4, 30 } }, width = 5, degree = 2,
+  stroke { points = { { -4, 2 }, { 9, 24 }, { -4, 30 } }, width = 5, degree = 2,
     cap = "round",
-    texture = "#b5714f" },
-  celspan.stroke { points = { { -32, 58 }, { 0, 78 }, { 32, 56 } }, width = 7, degree = 2,
+    fill = "#b5714f" },
+  stroke { points = { { -32, 58 }, { 0, 78 }, { 32, 56 } }, width = 7, degree = 2,
     cap = "round",
-    taper = { 14, 14 }, texture = "#a8413a" },
+    taper = { 14, 14 }, fill = "#a8413a" },
   curls,
 }
 
@@ -75,23 +74,23 @@ function head.pose(object, index)
 end
 
 --- The shoulders follow by half the distance.
-local shirt = celspan.path { texture = "#2f6f86",
+local shirt = path { fill = "#2f6f86",
   d = "M-150 260C-150 150 -60 110 0 110S150 150 150 260Z" }
-local neck = celspan.rect { -32, 70, 64, 70, radius = 24, texture = "#c58661" }
+local neck = rect { -32, 70, 64, 70, radius = 24, fill = "#c58661" }
 
 --- The cels of a frame.
 function head.cels(index)
   local x = motion(index)[1]
-  local wall = celspan.rect { 0, 0, 640, 360,
-    texture = celspan.linear { from = { 0, 0 }, to = { 640, 360 },
+  local wall = rect { 0, 0, 640, 360,
+    fill = linear { from = { 0, 0 }, to = { 640, 360 },
     { 0, "#cfe0dc" }, { 1, "#8fb0b8" } } }
-  return { celspan.cel { wall }:named "wall",
-    celspan.cel { (shirt | neck):translate(320 + (x - 320) / 2, 186) }:named "shoulders",
-    celspan.cel { head.pose(face, index) }:named "head" }
+  return { cel { wall }:named "wall",
+    cel { (shirt | neck):translate(320 + (x - 320) / 2, 186) }:named "shoulders",
+    cel { head.pose(face, index) }:named "head" }
 end
 
-head.film = celspan.film { title = "A head", size = head.size, frames = head.frames, fps = head.fps,
-  frame = function(f) return celspan.rostrum(head.cels(f.index)) end }
+head.film = film { title = "A head", size = head.size, frames = head.frames, fps = head.fps,
+  frame = function(f) return rostrum(head.cels(f.index)) end }
 
 -- When run as a script, this returns the film; when required, the table.
 if ... == "hat.head" then return head end

@@ -1,5 +1,4 @@
 -- The picture of one layer of a painting, cropped to whole pixels around the art.
-local celspan = require "celspan"
 
 --- Draws an object for a painting of w x h units, at `fine` pixels per unit. Returns { x =, y =,
 --- png = }: its corner in pixels and the bytes of the file.
@@ -9,7 +8,7 @@ return function(art, w, h, fine)
   local x1 = math.min(math.tointeger(fine * w // 1), math.ceil(x + width))
   local y1 = math.min(math.tointeger(fine * h // 1), math.ceil(y + height))
   local path = os.tmpname() .. ".png"
-  assert(celspan.render(celspan.rostrum { celspan.cel { art } }, path, {
+  assert(render(rostrum { cel { art } }, path, {
     size = { fine * w // 1, fine * h // 1 }, film = { w, h },
     crop = { x0, y0, x1 - x0, y1 - y0 } }))
   local file = assert(io.open(path, "rb"))

@@ -5,8 +5,6 @@
 -- Each layer is a part that a bone moves. Neighbours overlap at their joints with round ends. The
 -- middle of a layer "joint NAME", a dot, is a joint.
 package.path = "./?.lua;" .. package.path
-local celspan = require "celspan"
-local colour = require "celspan.colour"
 local draw = require "scripts.paintings.draw"
 local paintings = require "tests.support.paintings"
 
@@ -20,20 +18,20 @@ local function fur(shape, seed, direction, light, dark)
     local px, py = x + w * random("x" .. i), y + h * random("y" .. i)
     local length, bend = 0.6 + 0.8 * random("length" .. i), 6 * (random("bend" .. i) - 0.5)
     local dx, dy = direction[1] * length, direction[2] * length
-    strokes[i] = celspan.stroke { taper = { 1, 6 }, width = 1.2 + 2.2 * random("width" .. i),
+    strokes[i] = stroke { taper = { 1, 6 }, width = 1.2 + 2.2 * random("width" .. i),
       d = ("M%.2f %.2f q%.2f %.2f %.2f %.2f"):format(px, py, dx / 2 + bend, dy / 2 - bend, dx, dy),
-      texture = random("shade" .. i) < 0.5 and light or dark }
+      fill = random("shade" .. i) < 0.5 and light or dark }
       :fade(0.2 + 0.5 * random("alpha" .. i))
   end
-  return celspan.clip(celspan.union(strokes), shape)
+  return clip(union(strokes), shape)
 end
 
 --- A painted part: a shape from one colour above to another below, with fur.
 local function part(d, above, below, direction, seed)
-  local plain = celspan.path { d = d }
+  local plain = path { d = d }
   local _, y, _, h = plain:bounds()
-  local paint = celspan.linear { from = { 0, y }, to = { 0, y + h }, { 0, above }, { 1, below } }
-  return celspan.union { plain:paint(paint), fur(plain, seed, direction,
+  local paint = linear { from = { 0, y }, to = { 0, y + h }, { 0, above }, { 1, below } }
+  return union { plain:paint(paint), fur(plain, seed, direction,
     colour.lighten(above, 0.13), colour.lighten(below, -0.09)) }
 end
 
@@ -81,13 +79,13 @@ add("head", part("M464 222C456 180 476 134 520 116C554 104 582 120 592 142C606 1
   .. "C641 176 632 185 619 185C598 194 580 202 560 206C536 226 494 250 464 222Z", RED, "#d8702c",
   BACK, "head"), part("M508 226C530 196 566 182 602 178C618 179 628 182 619 185C598 194 580 202 560"
     .. " 206C544 220 526 228 508 226Z", CREAM, "#f3dfc6", BACK, "cheek"),
-  celspan.path { d = "M566 156Q576 142 588 154Q576 160 566 156Z", texture = "#241512" },
-  celspan.circle { centre = { 579, 151 }, radius = 1.6, texture = "#fff" },
-  celspan.ellipse { centre = { 634, 169 }, radii = { 8, 7 }, texture = "#1d1413" },
-  celspan.stroke { d = "M622 182Q606 186 592 186", width = 2, cap = "round", texture = "#5b2c1a" })
+  path { d = "M566 156Q576 142 588 154Q576 160 566 156Z", fill = "#241512" },
+  circle { 579, 151, 1.6, fill = "#fff" },
+  ellipse { 634, 169, 8, 7, fill = "#1d1413" },
+  stroke { d = "M622 182Q606 186 592 186", width = 2, cap = "round", fill = "#5b2c1a" })
 add("ear near", part("M510 130C502 92 505 68 514 50C534 68 552 96 554 124Z", RED, RUST, DOWN,
   "ear"),
-  celspan.path { d = "M522 122C516 98 516 82 519 70C532 84 540 102 541 120Z", texture = "#5b2a1a" })
+  path { d = "M522 122C516 98 516 82 519 70C532 84 540 102 541 120Z", fill = "#5b2a1a" })
 legs("near", 0, 0, 0)
 
 local points = { rump = { 238, 230 }, withers = { 470, 206 }, nose = { 634, 169 },
@@ -103,11 +101,11 @@ local names = {}
 for name in pairs(points) do names[#names + 1] = name end
 table.sort(names)
 for _, name in ipairs(names) do
-  add("joint " .. name, celspan.circle { centre = points[name], radius = 3, texture = "#0a0" })
+  add("joint " .. name, circle { centre = points[name], radius = 3, fill = "#0a0" })
 end
 
 for _, layer in ipairs(layers) do
-  local picture = draw(celspan.union { table.unpack(layer) }, W, H, 1)
+  local picture = draw(union { table.unpack(layer) }, W, H, 1)
   layer.x, layer.y, layer.png = picture.x, picture.y, picture.png
 end
 local file = assert(io.open(arg[1] or "scripts/paintings/fox.ora", "wb"))

@@ -4,7 +4,6 @@
 --
 -- Each layer is drawn with celspan and cropped to its contents; then all are put into an archive.
 package.path = "./?.lua;" .. package.path
-local celspan = require "celspan"
 local draw = require "scripts.paintings.draw"
 local paintings = require "tests.support.paintings"
 
@@ -27,22 +26,22 @@ end
 
 local function hill(base, height, pitch, rough, seed, top, foot)
   local points = ridge(base, height, pitch, rough, seed)
-  points.texture = celspan.linear { from = { 0, base - height }, to = { 0, H }, { 0, top },
+  points.texture = linear { from = { 0, base - height }, to = { 0, H }, { 0, top },
     { 1, foot } }
-  return celspan.polygon(points)
+  return polygon(points)
 end
 
 --- A fir: boughs from the crown down.
 local function fir(x, foot, height, colour)
-  local parts = { celspan.rect { x - height / 60, foot - height / 8, height / 30, height / 8,
-    texture = colour } }
+  local parts = { rect { x - height / 60, foot - height / 8, height / 30, height / 8,
+    fill = colour } }
   for i = 0, 6 do
     local y, w = foot - height + height * 0.13 * i, height * (0.045 + 0.028 * i)
-    parts[#parts + 1] = celspan.polygon { { x, y }, { x + w, y + height * 0.2 },
+    parts[#parts + 1] = polygon { { x, y }, { x + w, y + height * 0.2 },
       { x + w * 0.3, y + height * 0.17 },
-      { x - w * 0.4, y + height * 0.185 }, { x - w, y + height * 0.21 }, texture = colour }
+      { x - w * 0.4, y + height * 0.185 }, { x - w, y + height * 0.21 }, fill = colour }
   end
-  return celspan.union(parts)
+  return union(parts)
 end
 
 local function firs(count, foot, height, colour, seed)
@@ -56,29 +55,29 @@ local function firs(count, foot, height, colour, seed)
 end
 
 local function disc(x, y, r, ...)
-  return celspan.circle { centre = { x, y }, radius = r,
-    texture = celspan.radial { centre = { x, y }, radius = r, ... } }
+  return circle { x, y, r,
+    fill = radial { centre = { x, y }, radius = r, ... } }
 end
 
 --- A bank of mist: long soft lobes.
 local function mist(y, colour)
-  local clear, parts = celspan.rgb(colour, 0), {}
+  local clear, parts = rgb(colour, 0), {}
   for i = 0, 6 do
-    local lobe = disc(0, 0, 100, { 0, celspan.rgb(colour, 0.55) },
-      { 0.5, celspan.rgb(colour, 0.25) }, { 1, clear })
+    local lobe = disc(0, 0, 100, { 0, rgb(colour, 0.55) },
+      { 0.5, rgb(colour, 0.25) }, { 1, clear })
     parts[i + 1] = lobe:scale(2.2, 0.22):translate(W * i / 6, y + 16 * math.sin(i * 2.2))
   end
-  return celspan.union(parts)
+  return union(parts)
 end
 
 local layers = {
   { name = "sky",
-    celspan.rect { 0, 0, W, H, texture = celspan.linear { from = { 0, 0 }, to = { 0, 430 },
+    rect { 0, 0, W, H, fill = linear { from = { 0, 0 }, to = { 0, 430 },
     { 0, "#20365f" }, { 0.45, "#7a6f9a" }, { 0.75, "#e8a184" }, { 1, "#ffdfa8" } } } },
-  { name = "sun", celspan.circle { centre = { 760, 262 }, radius = 30, texture = "#fff3d0" } },
+  { name = "sun", circle { 760, 262, 30, fill = "#fff3d0" } },
   { name = "glow", blend = "svg:plus", opacity = 0.8,
-    disc(760, 262, 330, { 0, celspan.rgb("#ffb060", 0.8) },
-    { 0.3, celspan.rgb("#f08040", 0.3) }, { 1, celspan.rgb("#f08040", 0) }) },
+    disc(760, 262, 330, { 0, rgb("#ffb060", 0.8) },
+    { 0.3, rgb("#f08040", 0.3) }, { 1, rgb("#f08040", 0) }) },
   { name = "far", layers = {
     { name = "peaks", hill(300, 58, 1.3, 22, 3, "#6a5f8c", "#c88f8f") },
     { name = "mist", opacity = 0.9, mist(356, "#ffd9b8") },
@@ -87,13 +86,13 @@ local layers = {
   { name = "wood", layers = {
     { name = "firs", table.unpack(firs(34, 425, 92, "#1f3048", 5)) },
     { name = "slope", hill(428, 14, 0.7, 3, 11, "#1f3048", "#182238") },
-    { name = "shade", blend = "svg:multiply", opacity = 0.7, celspan.rect { 0, 330, W, 210,
-      texture = celspan.linear { from = { 0, 330 }, to = { 0, 540 }, { 0, "#ffffff00" },
+    { name = "shade", blend = "svg:multiply", opacity = 0.7, rect { 0, 330, W, 210,
+      fill = linear { from = { 0, 330 }, to = { 0, 540 }, { 0, "#ffffff00" },
         { 1, "#40508c" } } } },
   } },
   { name = "near", layers = {
     { name = "firs", table.unpack(firs(9, 560, 330, "#0a1220", 7)) },
-    { name = "notes", visible = false, celspan.rect { 20, 20, 200, 60, texture = "#ff3b30" } },
+    { name = "notes", visible = false, rect { 20, 20, 200, 60, fill = "#ff3b30" } },
   } },
 }
 
@@ -102,7 +101,7 @@ local function draw_all(list)
     if layer.layers then
       draw_all(layer.layers)
     else
-      local picture = draw(celspan.union { table.unpack(layer) }, W, H, 1)
+      local picture = draw(union { table.unpack(layer) }, W, H, 1)
       layer.x, layer.y, layer.png = picture.x, picture.y, picture.png
     end
   end

@@ -1,34 +1,33 @@
 -- Portraits in place of the paper's photographs of people: drawn with closed NURBS, and then
 -- converted to pictures of pixels. Units of a portrait: the head is about 200 high, its middle at
 -- (0, 0); y goes down.
-local celspan = require "celspan"
 
 local cast = {}
 
 --- A smooth closed shape near these points.
 function cast.blob(points, texture)
-  return celspan.nurbs { points = points, closed = "periodic", texture = texture }
+  return nurbs { points = points, closed = "periodic", fill = texture }
 end
 
 local blob = cast.blob
 
 --- A paint that goes from `from` at (x0, y0) to `to` at (x1, y1).
 local function fade(x0, y0, x1, y1, from, to)
-  return celspan.linear { from = { x0, y0 }, to = { x1, y1 }, { 0, from }, { 1, to } }
+  return linear { from = { x0, y0 }, to = { x1, y1 }, { 0, from }, { 1, to } }
 end
 
 local function disc(x, y, rx, ry, texture)
-  return celspan.ellipse { centre = { x, y }, radii = { rx, ry }, texture = texture }
+  return ellipse { x, y, rx, ry, fill = texture }
 end
 
 local function line(points, width, colour)
-  return celspan.stroke { points = points, width = width, degree = 3, cap = "round",
-    taper = { 14, 14 }, texture = colour }
+  return stroke { points = points, width = width, degree = 3, cap = "round",
+    taper = { 14, 14 }, fill = colour }
 end
 
 --- An eye that looks `look` units aside.
 local function eye(x, look)
-  return celspan.union {
+  return union {
     blob({ { x - 24, 2 }, { x, -16 }, { x + 24, 2 }, { x, 14 } }, "#fdf6ea"),
     disc(x + look, -1, 8, 9, "#3d5a52"), disc(x + look, -1, 4, 5, "#15110f"),
     disc(x + look - 3, -5, 2.2, 2.4, "#ffffff"),
@@ -41,8 +40,8 @@ local function face(skin)
   local light, dark, lip = table.unpack(skin)
   local head = blob({ { 0, -128 }, { 84, -104 }, { 92, -10 }, { 70, 66 }, { 0, 128 }, { -70, 66 },
                       { -92, -10 }, { -84, -104 } }, fade(-70, -60, 80, 60, light, dark))
-  local cheek = celspan.rgb("#d8604f", 0.28)
-  local marks = celspan.union {
+  local cheek = rgb("#d8604f", 0.28)
+  local marks = union {
     disc(-42, 34, 19, 14, cheek), disc(40, 34, 17, 13, cheek),
     line({ { 4, -8 }, { 14, 18 }, { 10, 30 }, { -4, 30 } }, 5, dark),
     line({ { -24, 56 }, { -10, 64 }, { 10, 64 }, { 24, 54 } }, 9, lip),
@@ -54,7 +53,7 @@ end
 
 --- Shoulders and neck, in a coat of { light, dark }.
 local function bust(skin, coat)
-  return celspan.union {
+  return union {
     blob({ { -200, 330 }, { -196, 190 }, { -70, 120 }, { 70, 120 }, { 196, 190 }, { 200, 330 },
            { 60, 420 }, { -60, 420 } }, fade(-150, 120, 150, 320, coat[1], coat[2])),
     blob({ { -34, 40 }, { 34, 40 }, { 44, 130 }, { 0, 190 }, { -44, 130 } },
@@ -66,7 +65,7 @@ end
 function cast.woman()
   local skin = { "#f7d0ac", "#cf8d6c", "#b23b3f" }
   local hair = fade(-100, -120, 120, 140, "#6a3a2a", "#2a1516")
-  return celspan.union {
+  return union {
     blob({ { 0, -176 }, { 130, -130 }, { 122, 40 }, { 150, 190 }, { 70, 170 }, { -70, 170 },
       { -150, 190 }, { -122, 40 }, { -130, -130 } }, hair),
     bust(skin, { "#c4472f", "#7d2420" }), face(skin), eye(-36, 3), eye(36, 3),
@@ -82,7 +81,7 @@ function cast.man()
   local beard = blob({ { -92, 0 }, { -70, 50 }, { -30, 44 }, { 0, 50 }, { 30, 44 }, { 70, 50 },
     { 92, 0 }, { 84, 110 }, { 0, 168 }, { -84, 110 } }, hair)
   local mouth = line({ { -22, 66 }, { -8, 72 }, { 8, 72 }, { 22, 65 } }, 8, skin[3])
-  return celspan.union {
+  return union {
     bust(skin, { "#3f7f6c", "#1c4440" }), face(skin), beard, mouth, eye(-36, -4), eye(36, -4),
     blob({ { 0, -160 }, { 104, -130 }, { 106, -40 }, { 84, -44 }, { 60, -98 }, { -60, -98 },
       { -84, -44 }, { -106, -40 }, { -104, -130 } }, hair),
@@ -98,7 +97,7 @@ local function flower(x, y, r, turn, petal, heart)
       :rotate(turn + 360 / 7 * i):translate(x, y)
   end
   petals[#petals + 1] = disc(x, y, 0.28 * r, 0.28 * r, heart)
-  return celspan.union(petals)
+  return union(petals)
 end
 
 --- A bunch of flowers in a glass vase, about 420 high; (0, 0) is the middle of its foot.
@@ -120,11 +119,11 @@ function cast.flowers()
     art[#art + 1] = flower(head[1], head[2], head[3], head[4],
       fade(0, -80, 0, 0, head[5], "#b5563f"), "#5b3320")
   end
-  art[#art + 1] = celspan.nurbs { closed = "periodic",
+  art[#art + 1] = nurbs { closed = "periodic",
     points = { { -46, -170 }, { 46, -170 }, { 34, -110 }, { 84, -40 }, { 60, 8 }, { -60, 8 },
       { -84, -40 }, { -34, -110 } },
-    texture = celspan.paint { pigment = "#8fb7c4", medium = { 0.72, 0.86, 0.9 }, beta = 0.4 } }
-  return celspan.union(art)
+    fill = paint { pigment = "#8fb7c4", medium = { 0.72, 0.86, 0.9 }, beta = 0.4 } }
+  return union(art)
 end
 
 return cast

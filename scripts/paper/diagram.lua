@@ -1,6 +1,5 @@
 -- Parts of the diagrams in the paper's figures: labels, cells, brackets and arrows, on paper of one
 -- colour.
-local celspan = require "celspan"
 
 local diagram = {}
 
@@ -11,19 +10,19 @@ local FONT = "../type/block.ttf"
 
 --- A line of text; `align` as of celspan.text.
 function diagram.label(text, x, y, size, align, colour)
-  return celspan.text { text, font = FONT, size = size or 22, at = { x, y }, align = align,
-    texture = colour or diagram.ink }
+  return celspan.text { text, x, y, font = FONT, size = size or 22, align = align,
+    fill = colour or diagram.ink }
 end
 
 --- A line through points {x, y}.
 function diagram.line(points, width, colour)
-  return celspan.stroke { points = points, width = width or 2, cap = "round", join = "round",
-    texture = colour or diagram.ink }
+  return stroke { points = points, width = width or 2, cap = "round", join = "round",
+    fill = colour or diagram.ink }
 end
 
 --- The outline of a rectangle.
 function diagram.box(x, y, w, h, width, colour)
-  return celspan.rect { x, y, w, h }:stroke { width = width or 2, texture = colour or diagram.ink }
+  return rect { x, y, w, h }:stroke { width = width or 2, fill = colour or diagram.ink }
 end
 
 --- A line from one point to another with a head at its end.
@@ -32,18 +31,18 @@ function diagram.arrow(x0, y0, x1, y1, colour)
   local ux, uy = (x1 - x0) / length, (y1 - y0) / length
   local bx, by = x1 - 15 * ux, y1 - 15 * uy
   colour = colour or diagram.ink
-  return celspan.union {
+  return union {
     diagram.line({ { x0, y0 }, { bx, by } }, 3, colour),
-    celspan.triangle { { x1, y1 }, { bx - 7 * uy, by + 7 * ux }, { bx + 7 * uy, by - 7 * ux },
-      texture = colour },
+    triangle { { x1, y1 }, { bx - 7 * uy, by + 7 * ux }, { bx + 7 * uy, by - 7 * ux },
+      fill = colour },
   }
 end
 
 --- A linear, premultiplied colour of a span, as a paint.
 function diagram.paint(r, g, b, a)
-  if a == 0 then return celspan.clear end
+  if a == 0 then return clear end
   local function straight(value) return math.min(1, value / a) end
-  return celspan.rgb(straight(r), straight(g), straight(b), a)
+  return rgb(straight(r), straight(g), straight(b), a)
 end
 
 --- Colours i, i + 1, ... of a span, as a paint.
@@ -55,7 +54,7 @@ end
 local function texture(span, x, size)
   if span.kind == "single" then return colour_at(span, 1) end
   local from, to = x + size / 2, x + (span.x1 - span.x0 - 0.5) * size
-  return celspan.linear { from = { from, 0 }, to = { to, 0 },
+  return linear { from = { from, 0 }, to = { to, 0 },
     { 0, colour_at(span, 1) }, { 1, colour_at(span, 2) } }
 end
 
@@ -64,7 +63,7 @@ local function pixel(span, i)
   if span.kind == "single" then return colour_at(span, 1) end
   if span.kind == "array" then return colour_at(span, i) end
   local u = (i - 1) / math.max(1, span.x1 - span.x0 - 1)
-  return celspan.mix(colour_at(span, 1), colour_at(span, 2), u)
+  return mix(colour_at(span, 1), colour_at(span, 2), u)
 end
 
 --- Whether a span is empty.
@@ -76,11 +75,11 @@ function diagram.pixels(row, x, y, size)
   for _, span in ipairs(row) do
     for i = 1, span.x1 - span.x0 do
       local left = x + (span.x0 + i - 1) * size
-      parts[#parts + 1] = celspan.rect { left, y, size, size, texture = pixel(span, i) }
+      parts[#parts + 1] = rect { left, y, size, size, fill = pixel(span, i) }
       parts[#parts + 1] = diagram.box(left, y, size, size, 1, diagram.grey)
     end
   end
-  return celspan.union(parts)
+  return union(parts)
 end
 
 --- A row of spans as one box for each span that shows; an array keeps its pixels.
@@ -92,13 +91,13 @@ function diagram.spans(row, x, y, size)
       if span.kind == "array" then
         parts[#parts + 1] = diagram.pixels({ span }, x, y, size)
       else
-        parts[#parts + 1] = celspan.rect { left, y, width, size,
-          texture = texture(span, left, size) }
+        parts[#parts + 1] = rect { left, y, width, size,
+          fill = texture(span, left, size) }
       end
       parts[#parts + 1] = diagram.box(left, y, width, size, 3)
     end
   end
-  return celspan.union(parts)
+  return union(parts)
 end
 
 --- Writes the contents of a span below its middle.
@@ -110,19 +109,19 @@ function diagram.kinds(row, x, y, size)
       parts[#parts + 1] = diagram.label(span.kind, middle, y, 19, "centre", diagram.grey)
     end
   end
-  return celspan.union(parts)
+  return union(parts)
 end
 
 --- The one row of a frame `width` pixels wide and one high.
 function diagram.row(rostrum, width)
-  return assert(celspan.spans(rostrum, { size = { width, 1 }, film = { width, 1 } }))[0]
+  return assert(spans(rostrum, { size = { width, 1 }, film = { width, 1 } }))[0]
 end
 
 --- A film of one frame, `width` x `height`: art on paper.
 function diagram.film(title, width, height, art)
-  local ground = celspan.rect { 0, 0, width, height, texture = diagram.paper }
-  return celspan.film { title = title, size = { width, height }, frames = 1, frame = function()
-    return celspan.rostrum { celspan.cel { ground, table.unpack(art) } }
+  local ground = rect { 0, 0, width, height, fill = diagram.paper }
+  return film { title = title, size = { width, height }, frames = 1, frame = function()
+    return cel { ground, table.unpack(art) }
   end }
 end
 

@@ -1,7 +1,6 @@
 -- Figure 1: a sample image made from five cels. The rearmost is a picture, of pixels; the others
 -- are drawn with closed NURBS and are sharp at every size.
 --   celspan render scripts/paper/figure01.lua --allow scripts -o 1.png -- view.jpg
-local celspan = require "celspan"
 local cast = require "cast"
 local pixels = require "pixels"
 
@@ -9,8 +8,8 @@ local blob = cast.blob
 local W, H = 960, 720
 
 local function line(points, width, colour, taper)
-  return celspan.stroke { points = points, width = width, degree = 3, cap = "round", taper = taper,
-    texture = colour }
+  return stroke { points = points, width = width, degree = 3, cap = "round", taper = taper,
+    fill = colour }
 end
 
 --- 1: the view.
@@ -18,30 +17,30 @@ local function view(file)
   local texture = pixels.texture(pixels.given(file,
     function() return { file = "../pictures/canal.png" } end),
     { box = { -80, -40, 1280, 720 }, wrap = "clamp" })
-  return celspan.cel { celspan.rect { 0, 0, W, H, texture = texture }, front = { 0.9, 0.86, 0.82 } }
+  return cel { rect { 0, 0, W, H, fill = texture }, front = { 0.9, 0.86, 0.82 } }
 end
 
 --- 2: the evening, a sheet of gelatine that filters the view, and a low sun.
 local function evening()
-  local gel = celspan.linear { from = { 0, 0 }, to = { 0, H }, { 0, celspan.gel(1, 0.84, 0.62) },
+  local gel = linear { from = { 0, 0 }, to = { 0, H }, { 0, celspan.gel(1, 0.84, 0.62) },
     { 1, celspan.gel(0.62, 0.5, 0.72) } }
   local sun = blob({ { 812, 14 }, { 902, 14 }, { 922, 104 }, { 857, 159 }, { 792, 104 } },
-    celspan.paint { pigment = "#ffcf7a", medium = { 1, 0.9, 0.7 }, beta = 0.75 })
-  return celspan.cel { celspan.rect { 0, 0, W, H, texture = gel }, sun }
+    paint { pigment = "#ffcf7a", medium = { 1, 0.9, 0.7 }, beta = 0.75 })
+  return cel { rect { 0, 0, W, H, fill = gel }, sun }
 end
 
 --- 3: the window sill, with a pot of herbs.
 local function sill()
-  local board = celspan.rect { 0, 590, W, 130,
-    texture = celspan.linear { from = { 0, 590 }, to = { 0, 720 },
+  local board = rect { 0, 590, W, 130,
+    fill = linear { from = { 0, 590 }, to = { 0, 720 },
     { 0, "#e9d2ae" }, { 0.16, "#c79a6e" }, { 1, "#6d4636" } } }
   local pot = blob({ { 690, 470 }, { 850, 470 }, { 870, 480 }, { 836, 610 }, { 800, 630 },
     { 740, 630 }, { 704, 610 },
-    { 670, 480 } }, celspan.linear { from = { 680, 0 }, to = { 860, 0 }, { 0, "#d8774f" },
+    { 670, 480 } }, linear { from = { 680, 0 }, to = { 860, 0 }, { 0, "#d8774f" },
       { 1, "#8e3f31" } })
   local function shadow(x, y, rx)
-    return celspan.ellipse { centre = { x, y }, radii = { rx, 15 },
-      texture = celspan.gel(0.62, 0.5, 0.5) }
+    return ellipse { x, y, rx, 15,
+      fill = celspan.gel(0.62, 0.5, 0.5) }
   end
   local art = { board, shadow(345, 634, 190), shadow(782, 622, 84) }
   for i, leaf in ipairs { { -46, 120 }, { -24, 150 }, { 2, 168 }, { 26, 146 }, { 48, 118 },
@@ -52,12 +51,12 @@ local function sill()
       green):rotate(leaf[1] * 0.7):translate(770 + leaf[1] * 0.5, 490)
   end
   art[#art + 1] = pot
-  return celspan.cel { celspan.union(art), front = { 1, 0.9, 0.82 } }
+  return cel { union(art), front = { 1, 0.9, 0.82 } }
 end
 
 --- 4: a cat that looks out.
 local function cat()
-  local fur = celspan.linear { from = { 150, 0 }, to = { 480, 0 }, { 0, "#2c2530" },
+  local fur = linear { from = { 150, 0 }, to = { 480, 0 }, { 0, "#2c2530" },
     { 0.75, "#4a3a44" },
     { 1, "#a8735c" } }
   local body = blob({ { 310, 300 }, { 392, 330 }, { 420, 450 }, { 470, 560 }, { 440, 640 },
@@ -73,7 +72,7 @@ local function cat()
   end
   local tail = line({ { 400, 610 }, { 540, 650 }, { 590, 560 }, { 520, 500 }, { 560, 440 } }, 44,
     fur, { 0, 60 })
-  return celspan.cel { celspan.union { tail, body, ear(1), ear(-1), head },
+  return cel { union { tail, body, ear(1), ear(-1), head },
     front = { 1, 0.92, 0.9 } }
 end
 
@@ -87,11 +86,11 @@ local function branch()
       i % 3 == 0 and "#8c3b3f" or "#4d2c3a")
       :rotate(i % 2 == 0 and 24 or -150):translate(x, 46 + 12 * math.sin(i))
   end
-  return celspan.cel { celspan.union(art), defocus = 7, front = { 0.9, 0.8, 0.8 } }
+  return cel { union(art), defocus = 7, front = { 0.9, 0.8, 0.8 } }
 end
 
 local file = ...
-return celspan.film { title = "Figure 1", size = { W, H }, frames = 1, frame = function()
-  return celspan.rostrum { view(file):named "view", evening():named "evening", sill():named "sill",
+return film { title = "Figure 1", size = { W, H }, frames = 1, frame = function()
+  return { view(file):named "view", evening():named "evening", sill():named "sill",
     cat():named "cat", branch():named "branch" }
 end }

@@ -1,6 +1,5 @@
 -- Figure 6: a pixel array (above) represented as a list of spans (below). The row is rendered: the
 -- spans are those of celspan.spans, and the pixels are made from them.
-local celspan = require "celspan"
 local diagram = require "diagram"
 
 local COLUMNS, CELL, LEFT = 24, 36, 48
@@ -11,15 +10,15 @@ local function photograph()
     { 246, 184, 96 }, { 252, 226, 150 }, { 58, 40, 44 }, { 226, 140, 84 }, { 92, 62, 88 } }
   local bytes = {}
   for i, code in ipairs(codes) do bytes[i] = string.char(table.unpack(code)) end
-  return celspan.picture { pixels = table.concat(bytes), size = { #codes, 1 }, format = "rgb8",
+  return picture { pixels = table.concat(bytes), size = { #codes, 1 }, format = "rgb8",
     sampling = "nearest" }
 end
 
-local rostrum = celspan.rostrum { antialias = "none", celspan.cel {
-  celspan.rect { 0, 0, 7, 1, texture = diagram.teal },
-  celspan.rect { 7, 0, 8, 1, texture = celspan.linear { from = { 7, 0 }, to = { 15, 0 },
+local rostrum = celspan.rostrum { antialias = "none", cel {
+  rect { 0, 0, 7, 1, fill = diagram.teal },
+  rect { 7, 0, 8, 1, fill = linear { from = { 7, 0 }, to = { 15, 0 },
     { 0, diagram.gold }, { 1, diagram.red } } },
-  celspan.rect { 15, 0, 9, 1, texture = photograph() },
+  rect { 15, 0, 9, 1, fill = photograph() },
 } }
 local row = diagram.row(rostrum, COLUMNS)
 

@@ -1,26 +1,25 @@
 -- Figure 7: compositing of span lists, here the intersection. Where two spans overlap, the colour
 -- is one paint over the other; a gradient over a single colour is a gradient (Table 1).
-local celspan = require "celspan"
 local diagram = require "diagram"
 
 local COLUMNS, CELL, LEFT = 30, 26, 150
 
-local glass = celspan.paint { pigment = "#c4472f", medium = { 1, 0.45, 0.35 }, beta = 0.45 }
-local a = celspan.union {
-  celspan.rect { 2, 0, 11, 1, texture = diagram.teal },
-  celspan.rect { 17, 0, 10, 1, texture = celspan.linear { from = { 17, 0 }, to = { 27, 0 },
+local glass = paint { pigment = "#c4472f", medium = { 1, 0.45, 0.35 }, beta = 0.45 }
+local a = union {
+  rect { 2, 0, 11, 1, fill = diagram.teal },
+  rect { 17, 0, 10, 1, fill = linear { from = { 17, 0 }, to = { 27, 0 },
     { 0, "#f3d27a" }, { 1, "#2f5d8a" } } },
 }
-local b = celspan.union {
-  celspan.rect { 0, 0, 5, 1, texture = glass },
-  celspan.rect { 8, 0, 13, 1, texture = glass },
-  celspan.rect { 24, 0, 6, 1, texture = glass },
+local b = union {
+  rect { 0, 0, 5, 1, fill = glass },
+  rect { 8, 0, 13, 1, fill = glass },
+  rect { 24, 0, 6, 1, fill = glass },
 }
 
 --- The row of an object, in white light in front of a white ground.
 local function row(object)
-  return diagram.row(celspan.rostrum { antialias = "none",
-    celspan.cel { object, back = { 1, 1, 1, 0 } } }, COLUMNS)
+  return diagram.row(rostrum { antialias = "none",
+    cel { object, back = { 1, 1, 1, 0 } } }, COLUMNS)
 end
 
 --- Only the part that the object covers: without a matte, light shows where the row is empty.

@@ -1,16 +1,15 @@
 -- Figure 8: the light that goes back to front through the cels to the camera. Each cel scatters its
 -- own front light and filters the light from behind; its own back light is added before. Every
 -- light in the drawing is computed by celspan.probe for the stack up to that cel.
-local celspan = require "celspan"
 local diagram = require "diagram"
 
 --- Rearmost first: the paint, its front light and the back light behind it.
 local cels = {
-  { paint = celspan.paint { pigment = "#2c7a86", beta = 1 },
+  { paint = paint { pigment = "#2c7a86", beta = 1 },
     front = { 0.9, 0.75, 0.5 }, back = { 0, 0, 0 } },
-  { paint = celspan.paint { pigment = "#e8b04a", medium = { 1, 0.75, 0.35 }, beta = 0.35 },
+  { paint = paint { pigment = "#e8b04a", medium = { 1, 0.75, 0.35 }, beta = 0.35 },
     front = { 0.55, 0.6, 0.8 }, back = { 0.35, 0.1, 0.1 } },
-  { paint = celspan.paint { pigment = "#b8324a", medium = { 0.95, 0.5, 0.75 }, beta = 0.3 },
+  { paint = paint { pigment = "#b8324a", medium = { 0.95, 0.5, 0.75 }, beta = 0.3 },
     front = { 0.9, 0.85, 0.8 }, back = { 0, 0.06, 0.22 } },
 }
 
@@ -19,24 +18,24 @@ local function light(count, with_next)
   local stack = {}
   for i = 1, count do
     local cel = cels[i]
-    stack[i] = celspan.cel { celspan.rect { 0, 0, 1, 1, texture = cel.paint },
+    stack[i] = celspan.cel { rect { 0, 0, 1, 1, fill = cel.paint },
       front = cel.front, back = cel.back }
   end
   if with_next then stack[#stack + 1] = celspan.cel { back = cels[count + 1].back } end
   if #stack == 0 then return { 0, 0, 0 } end
-  local r, g, b = celspan.probe(celspan.rostrum(stack), 0.5, 0.5, { film = { 1, 1 } })
+  local r, g, b = probe(rostrum(stack), 0.5, 0.5, { film = { 1, 1 } })
   return { r, g, b }
 end
 
 --- A colour of light as an opaque paint.
 local function shown(colour)
   local r, g, b = table.unpack(colour)
-  return celspan.rgb(math.min(1, r), math.min(1, g), math.min(1, b))
+  return rgb(math.min(1, r), math.min(1, g), math.min(1, b))
 end
 
 local function disc(x, y, r, texture)
-  local circle = celspan.circle { centre = { x, y }, radius = r, texture = texture }
-  return circle | circle:stroke { width = 2, texture = diagram.ink }
+  local circle = celspan.circle { x, y, r, fill = texture }
+  return circle | circle:stroke { width = 2, fill = diagram.ink }
 end
 
 --- A sign in a circle: "x" where a cel filters and scatters, "+" where light is added.
@@ -53,14 +52,14 @@ local LINE = 250 -- the row along which the light is drawn
 local function stage(i, x)
   local cel = cels[i]
   local from, add, cross, to = x, x + 76, x + 168, x + 262
-  return celspan.union {
+  return union {
     disc(from, LINE, 26, shown(light(i - 1))),
     diagram.arrow(from + 27, LINE, add - 20, LINE), sign(add, LINE, "+"),
     disc(add, LINE + 120, 26, shown(cel.back)), diagram.arrow(add, LINE + 93, add, LINE + 20),
     diagram.arrow(add + 18, LINE, cross - 20, LINE), sign(cross, LINE, "x"),
-    celspan.rect { cross - 27, LINE - 178, 54, 54, texture = "#ffffff" },
-    celspan.rect { cross - 27, LINE - 178, 27, 54, texture = diagram.ink },
-    celspan.rect { cross - 27, LINE - 178, 54, 54, texture = cel.paint },
+    rect { cross - 27, LINE - 178, 54, 54, fill = "#ffffff" },
+    rect { cross - 27, LINE - 178, 27, 54, fill = diagram.ink },
+    rect { cross - 27, LINE - 178, 54, 54, fill = cel.paint },
     diagram.box(cross - 27, LINE - 178, 54, 54), diagram.arrow(cross, LINE - 123, cross, LINE - 20),
     disc(cross, LINE + 120, 26, shown(cel.front)),
       diagram.arrow(cross, LINE + 93, cross, LINE + 20),

@@ -1,34 +1,33 @@
 -- Figure 9: the span list of one NURBS primitive. The art in front makes a mask (1); only the part
 -- of the primitive outside the mask is computed (2); its opaque part is added to the mask (3),
 -- which is then used for the cels behind.
-local celspan = require "celspan"
 local diagram = require "diagram"
 
 local COLUMNS, CELL, LEFT = 60, 14, 60
 local SCAN = 8 -- the row of pixels that is shown, of the 22 rows of the drawing
 
-local leaf = celspan.nurbs { closed = "periodic", texture = diagram.gold,
+local leaf = nurbs { closed = "periodic", fill = diagram.gold,
   points = { { 6, 16 }, { 10, -4 }, { 24, 2 }, { 29, 17 }, { 37, -2 }, { 56, 1 }, { 54, 22 },
     { 30, 13 } } }
-local front = celspan.union {
-  celspan.circle { centre = { 16, 11 }, radius = 5, texture = diagram.teal },
-  celspan.rect { 43, 3, 5, 16, radius = 2, texture = diagram.teal },
+local front = union {
+  circle { 16, 11, 5, fill = diagram.teal },
+  rect { 43, 3, 5, 16, radius = 2, fill = diagram.teal },
 }
 
 --- The row of an object at the scan line.
 local function row(object)
-  return diagram.row(celspan.rostrum { antialias = "none",
-    celspan.cel { object:translate(0, -SCAN) } }, COLUMNS)
+  return diagram.row(rostrum { antialias = "none",
+    cel { object:translate(0, -SCAN) } }, COLUMNS)
 end
 
 --- An object in one colour.
 local function flat(object, colour)
-  return celspan.clip(celspan.rect { 0, 0, COLUMNS, 22, texture = colour }, object)
+  return clip(rect { 0, 0, COLUMNS, 22, fill = colour }, object)
 end
 
 --- A numbered list of spans with its description.
 local function list(number, text, object, y)
-  return celspan.union {
+  return union {
     diagram.label(number, LEFT - 14, y + 15, 22, "right"),
     diagram.spans(row(object), LEFT, y, CELL),
     diagram.label(text, LEFT + COLUMNS * CELL, y - 8, 17, "right", diagram.grey),

@@ -1,7 +1,6 @@
 -- Figure 10: a picture on a primitive under a transform, and the output's pixels over it. Case 1,
 -- near: one texel of the picture covers several pixels. Case 2, far: several texels lie in one
 -- pixel.
-local celspan = require "celspan"
 local diagram = require "diagram"
 
 local TEXELS, PIXEL = 16, 26
@@ -20,7 +19,7 @@ local function chart()
     sampling = "nearest" }
 end
 
-local picture = celspan.rect { 0, 0, TEXELS, TEXELS, texture = chart() }
+local picture = rect { 0, 0, TEXELS, TEXELS, fill = chart() }
   :quad({ { 0, 0 }, { TEXELS, 0 }, { TEXELS, TEXELS }, { 0, TEXELS } },
         { { 398, 60 }, { 548, 66 }, { 900, 500 }, { 60, 470 } })
 
@@ -29,16 +28,16 @@ local function grid()
   local lines, colour = {}, "#26323d60"
   for x = 0, 960, PIXEL do lines[#lines + 1] = diagram.line({ { x, 0 }, { x, 540 } }, 1, colour) end
   for y = 0, 540, PIXEL do lines[#lines + 1] = diagram.line({ { 0, y }, { 960, y } }, 1, colour) end
-  return celspan.union(lines)
+  return union(lines)
 end
 
 --- An outlined pixel, with its case.
 local function mark(column, row, text, x, y)
   local left, top = column * PIXEL, row * PIXEL
-  return celspan.union {
+  return union {
     diagram.box(left, top, PIXEL, PIXEL, 4, diagram.red),
     diagram.line({ { left + PIXEL / 2, top + PIXEL / 2 }, { x, y } }, 2.5, diagram.red),
-    celspan.rect { x - 62, y - 22, 124, 40, radius = 8, texture = diagram.red },
+    rect { x - 62, y - 22, 124, 40, radius = 8, fill = diagram.red },
     diagram.label(text, x, y + 6, 22, "centre", "#ffffff"),
   }
 end

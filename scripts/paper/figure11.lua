@@ -1,23 +1,22 @@
 -- Figure 11: a list of 3 spans, 22 pixels long, filtered by a box into 5 spans: each step becomes
 -- a ramp as long as the box is wide. Both lists are rendered; the graph is drawn from them.
-local celspan = require "celspan"
 local diagram = require "diagram"
 
 local COLUMNS, CELL, LEFT = 22, 36, 84
 
-local art = celspan.union {
-  celspan.rect { 0, 0, 7, 1, texture = celspan.rgb(0.2, 0.2, 0.2) },
-  celspan.rect { 7, 0, 8, 1, texture = celspan.rgb(0.9, 0.9, 0.9) },
-  celspan.rect { 15, 0, 7, 1, texture = celspan.rgb(0.45, 0.45, 0.45) },
+local art = union {
+  rect { 0, 0, 7, 1, fill = rgb(0.2, 0.2, 0.2) },
+  rect { 7, 0, 8, 1, fill = rgb(0.9, 0.9, 0.9) },
+  rect { 15, 0, 7, 1, fill = rgb(0.45, 0.45, 0.45) },
 }
 --- The row continues beyond its ends with the colours of the ends.
-local wide = celspan.union { celspan.rect { -9, 0, 10, 1, texture = celspan.rgb(0.2, 0.2, 0.2) },
-  celspan.rect { 21, 0, 10, 1, texture = celspan.rgb(0.45, 0.45, 0.45) }, art }
+local wide = union { rect { -9, 0, 10, 1, fill = rgb(0.2, 0.2, 0.2) },
+  rect { 21, 0, 10, 1, fill = rgb(0.45, 0.45, 0.45) }, art }
   :scale(1, 30, 0, 0.5)
 
-local sharp = diagram.row(celspan.rostrum { antialias = "none", celspan.cel { wide } }, COLUMNS)
-local soft = diagram.row(celspan.rostrum { antialias = "none",
-  celspan.cel { wide, defocus = { radius = 2.5, kernel = "box" } } }, COLUMNS)
+local sharp = diagram.row(rostrum { antialias = "none", cel { wide } }, COLUMNS)
+local soft = diagram.row(rostrum { antialias = "none",
+  cel { wide, defocus = { radius = 2.5, kernel = "box" } } }, COLUMNS)
 
 --- Light of each pixel of a row, from 1.
 local function levels(row)
@@ -45,7 +44,7 @@ local function graph(row, base, is_stepped)
       points[#points + 1] = { LEFT + (i - 0.5) * CELL, y }
     end
   end
-  return celspan.union { diagram.line({ { LEFT, base }, { LEFT + COLUMNS * CELL, base } }, 1.5,
+  return union { diagram.line({ { LEFT, base }, { LEFT + COLUMNS * CELL, base } }, 1.5,
     diagram.grey),
     diagram.line(points, 4, diagram.red) }
 end

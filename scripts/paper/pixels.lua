@@ -1,11 +1,10 @@
 -- Pictures of pixels for the figures that need photographs: from a given file, or drawn here and
 -- converted to pixels, so that every figure can be rendered without any file.
-local celspan = require "celspan"
 
 local pixels = {}
 
 local function coded(art, w, h, light, depth, colour)
-  local rostrum = celspan.rostrum { celspan.cel { art, front = light } }
+  local rostrum = celspan.rostrum { cel { art, front = light } }
   local image = assert(celspan.pixels(rostrum, { size = { w, h }, film = { w, h } }))
   return { pixels = image:bytes { depth = depth, colour = colour, alpha = "straight" },
     size = { w, h }, format = "rgba" .. depth, colour = colour }
@@ -28,7 +27,7 @@ function pixels.texture(fields, more)
   local all = {}
   for key, value in pairs(fields) do all[key] = value end
   for key, value in pairs(more or {}) do all[key] = value end
-  return celspan.picture(all)
+  return picture(all)
 end
 
 return pixels

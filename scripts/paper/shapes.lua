@@ -1,6 +1,5 @@
 -- The paper's random NURBS shapes: four control points anywhere in the square and random knots,
 -- each with its colour and its transparency (section 6.1).
-local celspan = require "celspan"
 
 local shapes = {}
 
@@ -12,17 +11,17 @@ local function shape(random, i)
     points[k] = { 1000 * draw("x" .. k), 1000 * draw("y" .. k) }
     knots[k + 1] = knots[k] + 0.1 + draw("knot" .. k)
   end
-  local colour = celspan.rgb(draw "red", draw "green", draw "blue", 0.1 + 0.9 * draw "alpha")
-  return celspan.nurbs { points = points, closed = "periodic", knots = knots, texture = colour }
+  local colour = rgb(draw "red", draw "green", draw "blue", 0.1 + 0.9 * draw "alpha")
+  return nurbs { points = points, closed = "periodic", knots = knots, fill = colour }
 end
 
 --- A film of `count` shapes in one cel, under a white light from the front and one from behind.
 function shapes.film(title, count, seed)
   local random, list = celspan.random(seed), {}
   for i = 1, count do list[i] = shape(random, i) end
-  local rostrum = celspan.rostrum { celspan.cel { celspan.union(list),
+  local rostrum = celspan.rostrum { cel { union(list),
     front = { 1, 1, 1 }, back = { 1, 1, 1, 1 } } }
-  return celspan.film { title = title, size = { 1000, 1000 }, frames = 1,
+  return film { title = title, size = { 1000, 1000 }, frames = 1,
     frame = function() return rostrum end }
 end
 

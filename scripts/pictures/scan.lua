@@ -1,21 +1,20 @@
 -- Makes scan.png: an ink drawing as from a scanner, on paper that is not quite white.
 --
 --   LUA_CPATH=build/?.so lua5.4 scripts/pictures/scan.lua scripts/pictures/scan.png
-local celspan = require "celspan"
 
-local paper, ink = celspan.rgb(0.86, 0.85, 0.81), celspan.rgb(0.016, 0.016, 0.022)
+local paper, ink = rgb(0.86, 0.85, 0.81), rgb(0.016, 0.016, 0.022)
 local w, h = 560, 380
 
 local function line(points, closed)
-  return celspan.stroke { points = points, closed = closed or false, degree = 3, cap = "round",
-    join = "round", texture = ink }
+  return stroke { points = points, closed = closed or false, degree = 3, cap = "round",
+    join = "round", fill = ink }
 end
 
 --- A closed line of changing width, and the paper inside of it.
 local function shape(points)
   local outline = {}
   for i, point in ipairs(points) do outline[i] = { point[1], point[2] } end
-  return celspan.nurbs { points = outline, texture = paper } | line(points, true)
+  return nurbs { points = outline, fill = paper } | line(points, true)
 end
 
 local body = shape { { 60, 205, 3 }, { 105, 110, 5 }, { 215, 72, 7 }, { 330, 105, 6 },
@@ -32,15 +31,15 @@ local fin = shape { { 235, 205, 3 }, { 290, 196, 6 }, { 322, 232, 6 }, { 300, 26
 local marks = { line { { 174, 92, 4 }, { 215, 160, 7 }, { 210, 245, 7 }, { 170, 300, 4 } },
   line { { 328, 112, 3 }, { 352, 160, 6 }, { 350, 240, 6 }, { 324, 286, 3 } },
   line { { 86, 238, 3 }, { 100, 256, 5 }, { 128, 244, 2 } } }
-local eye = celspan.circle { centre = { 132, 172 }, radius = 25, texture = paper }
-  | celspan.circle { centre = { 132, 172 }, radius = 25 }:stroke { width = 5, texture = ink }
-  | celspan.circle { centre = { 126, 174 }, radius = 11, texture = ink }
+local eye = circle { 132, 172, 25, fill = paper }
+  | circle { 132, 172, 25 }:stroke { width = 5, fill = ink }
+  | circle { 126, 174, 11, fill = ink }
 
-local drawing = celspan.union { celspan.rect { 0, 0, w, h, texture = paper }, top, body, tail,
+local drawing = union { rect { 0, 0, w, h, fill = paper }, top, body, tail,
   marks[1], marks[2], marks[3], fin, eye }
 
 --- A little noise of the sensor and grain of the paper, the same each time.
-local image = celspan.pixels(celspan.rostrum { celspan.cel { drawing } }, { size = { w, h } })
+local image = pixels(rostrum { cel { drawing } }, { size = { w, h } })
 local random, bytes = celspan.random(7), {}
 for y = 0, h - 1 do
   for x = 0, w - 1 do
@@ -52,4 +51,4 @@ for y = 0, h - 1 do
 end
 local scan = celspan.image { pixels = table.concat(bytes), size = { w, h }, format = "rgbaf", x = 0,
   y = 0 }
-assert(celspan.render(celspan.rostrum { celspan.cel { scan } }, arg[1], { size = { w, h } }))
+assert(render(rostrum { cel { scan } }, arg[1], { size = { w, h } }))

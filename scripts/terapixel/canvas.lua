@@ -1,6 +1,5 @@
 -- The pictures on the walls: small landscapes, 96 by 64, and one large one, 192 by 108: a frame of
 -- the film in scripts/demo.lua, which is visible pixel by pixel at the last level.
-local celspan = require "celspan"
 local character = require "demo.character"
 local landscape = require "demo.landscape"
 local palette = require "demo.palette"
@@ -20,7 +19,7 @@ local moods = {
 
 --- The smallest house: on the last level its window is five pixels wide.
 local function cottage(x, y, size, dice)
-  return celspan.union {
+  return union {
     draw.rect(x, y - size * 0.7, size, size * 0.7, dice:one(palette.walls)),
     draw.path(dice:one(palette.roofs), "M%g %gL%g %gL%g %gZ", x - size * 0.15, y - size * 0.68,
       x + size / 2, y - size * 1.3, x + size * 1.15, y - size * 0.68),
@@ -48,7 +47,7 @@ function canvas.small(dice)
   for i = 0, 3 do
     parts[#parts + 1] = cottage(10 + i * 20 + dice:between(0, 8), 52 + dice:between(0, 6), 6, dice)
   end
-  return celspan.union(parts)
+  return union(parts)
 end
 
 --- A mount and a moulding around a picture of w by h.
@@ -59,8 +58,8 @@ function canvas.frame(art, w, h)
       width - reach, width - reach, w + reach - width, h + reach - width, width - reach)
       :with { rule = "evenodd" }
   end
-  return celspan.union { draw.rect(-7, -7, w + 14, h + 14, "#efe3cc"), art, ring("#6b4226", 12, 6),
-                         ring("#a8743c", 11, 2) }
+  return union { draw.rect(-7, -7, w + 14, h + 14, "#efe3cc"), art, ring("#6b4226", 12, 6),
+                 ring("#a8743c", 11, 2) }
 end
 
 --- Golden hour in the valley, 1920 by 1080, cut to its canvas.
@@ -70,18 +69,18 @@ local function golden_hour()
   for i, stop in ipairs(palette.sky) do gradient[i] = { stop[1], stop[2]:at(0) } end
   local rings = {}
   for i, radius in ipairs { 430, 318, 216, 132 } do
-    rings[i] = draw.disc(690, 560, radius, celspan.rgb(1, 0.86, 0.62, 0.06 + 0.03 * i))
+    rings[i] = draw.disc(690, 560, radius, rgb(1, 0.86, 0.62, 0.06 + 0.03 * i))
   end
   local figure, glass, frame = character.draw(time, "D")
-  local scene = celspan.union {
-    draw.rect(0, 0, 1920, 1080, celspan.linear(gradient)),
-    celspan.union(rings), draw.disc(690, 560, 74, palette.sun:at(0)),
+  local scene = union {
+    draw.rect(0, 0, 1920, 1080, linear(gradient)),
+    union(rings), draw.disc(690, 560, 74, palette.sun:at(0)),
     landscape.mountains, landscape.hills, landscape.lake, landscape.poplars, landscape.slope,
     village.houses, village.panes, landscape.oaks, landscape.near, landscape.ground,
-    celspan.union { figure, glass, frame }:translate(1500, 946), landscape.meadow,
+    union { figure, glass, frame }:translate(1500, 946), landscape.meadow,
     landscape.branch:translate(-300, 0),
   }
-  return celspan.clip(scene, celspan.rect { 0, 0, 1920, 1080 })
+  return clip(scene, rect { 0, 0, 1920, 1080 })
 end
 
 canvas.large = golden_hour():scale(0.1)

@@ -1,6 +1,5 @@
 -- Houses: each a wall with a gable, a door, a chimney, and windows with rooms in them. Units are
 -- those of the frame, whose side is a thousand units; y is the ground of the house.
-local celspan = require "celspan"
 local palette = require "demo.palette"
 local shapes = require "demo.shapes"
 local draw = require "terapixel.draw"
@@ -13,7 +12,7 @@ local house = {}
 local rooms = {}
 for i = 1, 24 do rooms[i] = room.any(Dice.new("room " .. i)) end
 
-local dark_pane = celspan.union {
+local dark_pane = union {
   draw.rect(0, 0, 600, 700, shapes.down(0, 700, { "#4a5a78", "#2b3350" })),
   draw.path("#ffffff18", "M60 700L330 0H470L200 700Z"),
   draw.rects("#c9b79a40", { { 0, 0, 90, 700 }, { 510, 0, 90, 700 } }),
@@ -43,7 +42,7 @@ local function flower_box(dice)
     parts[#parts + 1] = draw.disc(b[1], b[2], 6, "#fff0b8")
   end
   local b = dice:one(blossoms)
-  local bee = celspan.union {
+  local bee = union {
     draw.oval(-3, -6, 5, 3, "#ffffffa0"), draw.oval(4, -6, 5, 3, "#ffffffa0"),
     draw.oval(0, 0, 8, 5, "#e8a33d"),
     draw.rects("#2b1b2c", { { -4, -4.4, 2, 8.8 }, { 0, -5, 2, 10 }, { 4, -4, 1.6, 8 } }),
@@ -52,7 +51,7 @@ local function flower_box(dice)
       .. "M-4.4 -4.6q0 -4 -2 -5.6l-0.4 0.5q1.4 2 1.4 5.3Z"),
   }
   parts[#parts + 1] = bee:translate(b[1] + 6, b[2] - 16)
-  return celspan.union(parts)
+  return union(parts)
 end
 
 local boxes = {}
@@ -76,7 +75,7 @@ end
 
 local function door(x, y, w, dice)
   local h = w * 1.9
-  return celspan.union {
+  return union {
     draw.rect(x - w * 0.08, y - h - w * 0.08, w * 1.16, h + w * 0.08, "#c99f74"),
     draw.rect(x, y - h, w, h, dice:one { "#2f7f86", "#8e4a48", "#4c3569", "#35492f" }),
     draw.rects("#00000038", { { x + w * 0.12, y - h * 0.9, w * 0.32, h * 0.36 },

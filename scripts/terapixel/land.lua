@@ -1,5 +1,4 @@
 -- Sky and land around the town, a thousand units per side.
-local celspan = require "celspan"
 local palette = require "demo.palette"
 local shapes = require "demo.shapes"
 local draw = require "terapixel.draw"
@@ -12,15 +11,15 @@ local time = 6.3 -- of the film's evening, in seconds
 function land.air()
   local gradient = { from = { 0, 0 }, to = { 0, 980 } }
   for i, stop in ipairs(palette.sky) do gradient[i] = { stop[1], stop[2]:at(time) } end
-  return draw.rect(0, 0, 1000, 1000, celspan.linear(gradient))
+  return draw.rect(0, 0, 1000, 1000, linear(gradient))
 end
 
 function land.sun()
   local rings = {}
   for i, radius in ipairs { 250, 184, 126, 78 } do
-    rings[i] = draw.disc(262, 566, radius, celspan.rgb(1, 0.55, 0.26, 0.006 + 0.003 * i))
+    rings[i] = draw.disc(262, 566, radius, rgb(1, 0.55, 0.26, 0.006 + 0.003 * i))
   end
-  return celspan.union(rings), draw.disc(262, 566, 44, palette.sun:at(time))
+  return union(rings), draw.disc(262, 566, 44, palette.sun:at(time))
 end
 
 --- Stars of eight rays, and now and then a smaller one beside it that is only visible in close-up.
@@ -41,7 +40,7 @@ function land.stars()
       parts[#parts + 1] = draw.disc(x + size * 2, y - size, size * 0.03, "#fff4dc")
     end
   end
-  return celspan.union(parts)
+  return union(parts)
 end
 
 local banks = { { 60, 190, 0.5 }, { 560, 120, 0.62 }, { 800, 262, 0.44 }, { 330, 330, 0.4 },
@@ -54,12 +53,12 @@ function land.clouds()
   for _, bank in ipairs(banks) do
     for _, pill in ipairs(pills) do
       local s = bank[3]
-      parts[#parts + 1] = celspan.rect { bank[1] + pill[1] * s, bank[2] + pill[2] * s, pill[3] * s,
-                                         26 * s, radius = 13 * s }
+      parts[#parts + 1] = rect { bank[1] + pill[1] * s, bank[2] + pill[2] * s, pill[3] * s,
+                                 26 * s, radius = 13 * s }
     end
   end
-  local paint = celspan.mix(celspan.clear, palette.cloud:at(time), 0.55)
-  return celspan.clip(draw.rect(-100, 0, 1200, 640, paint), celspan.union(parts))
+  local paint = mix(clear, palette.cloud:at(time), 0.55)
+  return clip(draw.rect(-100, 0, 1200, 640, paint), union(parts))
 end
 
 --- A crest that swings around a line, closed at the bottom.
@@ -71,7 +70,7 @@ local function ridge(name, y, swing, step, texture)
   return shapes.ridge(points, 1010, texture)
 end
 
-land.mountains = celspan.union {
+land.mountains = union {
   ridge("far", 500, 60, 110, shapes.down(430, 640, palette.mountains)),
   ridge("hills", 590, 22, 130, shapes.down(560, 680, palette.hills)),
 }
@@ -126,13 +125,13 @@ function land.slope()
     tufts[#tufts + 1] = ("M%.4f %.4fl%.4f %.4fl%.4f %.4fl%.4f %.4fl%.4f %.4fl%.4f %.4fZ"):format(
       x, y, -s * 0.7, -s * 1.3, s * 0.6, s * 0.6, s * 0.3, -s * 1.1, s * 0.3, s * 1.1, s * 0.7, -s)
   end
-  return celspan.union { draw.path("#8a9464", table.concat(tufts)), shapes.ribbon(lane, "#b9a273"),
-                         draw.path("#9c8762", table.concat(stones)) }
+  return union { draw.path("#8a9464", table.concat(tufts)), shapes.ribbon(lane, "#b9a273"),
+                 draw.path("#9c8762", table.concat(stones)) }
 end
 
 --- A lamp beside the lane: its post, its glass, its light.
 function land.lamp(x, y, size)
-  local post = celspan.union {
+  local post = union {
     draw.rect(x - size * 0.03, y - size, size * 0.06, size, palette.brass),
     draw.rect(x - size * 0.12, y - size * 0.04, size * 0.24, size * 0.04, palette.brass),
     draw.path(palette.brass, "M%g %gl%g %gl%g %gZ", x - size * 0.16, y - size * 1.24, size * 0.16,
@@ -159,7 +158,7 @@ function land.tree(x, y, size, dice)
       lx, ly, s, -s, 2 * s, -s, s, -2 * s)
   end
   parts[#parts + 1] = draw.path("#a2a45a60", table.concat(leaves))
-  return celspan.union(parts)
+  return union(parts)
 end
 
 return land

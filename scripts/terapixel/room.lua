@@ -1,6 +1,5 @@
 -- Rooms behind windows, each 600 by 700 with its floor at 590; at the last level a unit of a room
 -- in the large windows is ten pixels.
-local celspan = require "celspan"
 local palette = require "demo.palette"
 local shapes = require "demo.shapes"
 local canvas = require "terapixel.canvas"
@@ -28,9 +27,9 @@ local function walls(dice)
         .. "l1 6h-2Z"):format(x, y)
     end
   end
-  return celspan.union {
+  return union {
     draw.rect(0, 0, 600, 590, shapes.down(0, 590, { paper[1], paper[2] })),
-    draw.rects(celspan.rgb(1, 1, 1, 0.16), stripes), draw.path("#c9743f", table.concat(sprigs)),
+    draw.rects(rgb(1, 1, 1, 0.16), stripes), draw.path("#c9743f", table.concat(sprigs)),
     draw.rect(0, 470, 600, 120, "#a5683f"), draw.rect(0, 466, 600, 8, "#d09a62"),
     draw.rect(0, 590, 600, 110, "#6d4030"),
     draw.rects("#5a3328", { { 0, 612, 600, 3 }, { 0, 640, 600, 4 }, { 0, 674, 600, 5 } }),
@@ -50,17 +49,17 @@ local function shelf(x, y, w, dice)
     at = at + wide + dice:between(0.4, 3)
   end
   parts[#parts + 1] = draw.rects("#f0d9a8", bands)
-  return celspan.union(parts)
+  return union(parts)
 end
 
 local function bookcase(x, dice)
   local parts = { draw.rect(x, 190, 170, 400, wood), draw.rect(x + 8, 198, 154, 384, "#54301f") }
   for i = 0, 3 do parts[#parts + 1] = shelf(x + 8, 280 + i * 96, 154, dice) end
-  return celspan.union(parts)
+  return union(parts)
 end
 
 local function lamp(x)
-  return celspan.union {
+  return union {
     draw.rect(x - 1.5, 0, 3, 60, palette.ink),
     draw.disc(x, 100, 110, "#fff3c926"), draw.disc(x, 100, 64, "#fff3c940"),
     draw.path("#e9573f", "M%g 56H%gL%g 104H%gZ", x - 14, x + 14, x + 52, x - 52),
@@ -77,10 +76,10 @@ local function curtains(dice)
       "M%g 0h6C%g 150 %g 330 %g 420l-4 0C%g 330 %g 150 %g 0Z",
       i * 28, i * 27 + 6, i * 20 + 4, i * 8 + 4, i * 20, i * 27, i * 28)
   end
-  local side = celspan.union(folds)
-  return celspan.union { side, side:scale(-1, 1):translate(600, 0),
-                         draw.rect(0, 0, 600, 26, cloth),
-                         draw.rects("#f0d9a8", { { 0, 24, 600, 4 } }) }
+  local side = union(folds)
+  return union { side, side:scale(-1, 1):translate(600, 0),
+                 draw.rect(0, 0, 600, 26, cloth),
+                 draw.rects("#f0d9a8", { { 0, 24, 600, 4 } }) }
 end
 
 local function table_set(x, dice)
@@ -97,11 +96,11 @@ local function table_set(x, dice)
     parts[#parts + 1] = draw.disc(x + 154 + i * 11, 412 + math.abs(i) * 3, 7,
       dice:one { "#e9573f", "#fff3c9", "#e8a33d" })
   end
-  return celspan.union(parts)
+  return union(parts)
 end
 
 local function cat(x, y, fur)
-  return celspan.union {
+  return union {
     draw.path(fur, "M%g %gc-34 0 -40 -40 -16 -66c-4 -20 -2 -34 2 -42l14 12h14l14 -12"
       .. "c4 10 6 24 2 42c24 26 16 66 -16 66Z", x, y),
     shapes.ribbon({ { x + 20, y - 8, 9 }, { x + 52, y - 10, 9 }, { x + 64, y - 34, 7 },
@@ -112,7 +111,7 @@ local function cat(x, y, fur)
 end
 
 local function clock(x, y)
-  return celspan.union {
+  return union {
     draw.disc(x, y, 30, wood), draw.disc(x, y, 25, "#fff6e0"),
     draw.rects(palette.ink, { { x - 1, y - 23, 2, 6 }, { x - 1, y + 17, 2, 6 },
                               { x - 23, y - 1, 6, 2 }, { x + 17, y - 1, 6, 2 } }),
@@ -138,12 +137,12 @@ function room.any(dice)
   if dice:once(2) then parts[#parts + 1] = clock(x + 96, 200) end
   parts[#parts + 1] = curtains(dice)
   parts[#parts + 1] = room.bars
-  return celspan.union(parts)
+  return union(parts)
 end
 
 --- The text of a note that is nailed to a wall, one pixel per square.
 local function note(x, y, lines)
-  return celspan.union {
+  return union {
     draw.rect(x, y, 21, 13, "#fffaf0"), draw.disc(x + 10.5, y + 0.8, 0.7, "#e9573f"),
     print.text(x + 1, y + 2, 0.1, "#2b1b2c", lines),
   }
@@ -151,7 +150,7 @@ end
 
 --- The room with the film on its wall: at the last level the canvas is 1920 by 1080 pixels.
 function room.gallery(dice)
-  return celspan.union {
+  return union {
     walls(dice), bookcase(28, dice), clock(250, 150),
     canvas.frame(canvas.large, 192, 108):translate(324, 268),
     note(326, 396, { "THE LAMPLIGHTER,", "FRAME 54, HUNG AT", "ONE PIXEL A PIXEL.", "",

@@ -1,7 +1,4 @@
 -- Close: the spark in his mitten, his words to it, its second try, and the light on his face.
-local ease = require "celspan.ease"
-local keys = require "celspan.keys"
-local motion = require "celspan.motion"
 local acting = require "film.acting"
 local lamp = require "film.lamp"
 local lamplighter = require "film.lamplighter"
@@ -85,8 +82,8 @@ local life = keys { { 13.5, 0.26 }, { 14.4, 0.22, "inOutSine" }, { 15.1, 0.34, "
 
 --- Its position, and the trail behind it while it flies.
 local function spark_at(time, palm)
-  local u = timing.share(time, at.rises + 0.3, at.enters - at.rises - 0.3)
-  local hop = timing.share(time, at.rises, 0.3)
+  local u = motion.span(time, at.rises + 0.3, at.enters - at.rises - 0.3)
+  local hop = motion.span(time, at.rises, 0.3)
   if u == 0 then return { palm[1], palm[2] - 26 - 30 * math.sin(math.pi * hop) * hop } end
   local trail = spark.trail(flight { palm[1], palm[2] - 26 }, up(u), 0.2)
   return trail[#trail], u < 1 and trail or nil
@@ -131,7 +128,7 @@ function shot.draw(time)
   local level, alive = burning:at(time), life:at(time)
   local breath = light.flicker(time)
   local lit = math.min(1, level * 3)
-  local inside = timing.share(time, at.enters - 0.1, 0.1)
+  local inside = motion.span(time, at.enters - 0.1, 0.1)
   local lx, ly = lens.project(camera, 0, place[1], place[2])
   local reach = 560 + 240 * alive + 1500 * level
   local strength = ((0.2 + 0.6 * alive) * (1 - inside) + 1.7 * level) * breath

@@ -1,7 +1,4 @@
 -- The town at dusk. A spark comes, writes the title into the sky, and flies down into the streets.
-local keys = require "celspan.keys"
-local ease = require "celspan.ease"
-local motion = require "celspan.motion"
 local lens = require "film.lens"
 local snow = require "film.snow"
 local spark = require "film.spark"
@@ -35,13 +32,13 @@ local departure = motion.along(dive:format(stop[1], stop[2], stop[1] + 120, stop
 --- The position of the spark on the frame, its size, and the trail behind it.
 local function spark_at(time)
   if time < rises.from then
-    local u = ease "inOutQuad"(timing.share(time, 0.1, rises.from - 0.1))
+    local u = ease "inOutQuad"(motion.span(time, 0.1, rises.from - 0.1))
     local trail = spark.trail(arrival, u, 0.16)
     return trail[#trail], 13, trail
   elseif time < rises.written + 0.05 then
     return title.hand(time), 13
   end
-  local u = ease "inOutCubic"(timing.share(time, rises.written + 0.05, 2.1))
+  local u = ease "inOutCubic"(motion.span(time, rises.written + 0.05, 2.1))
   local trail = spark.trail(departure, u, 0.13)
   return trail[#trail], 13 - 8.5 * u, trail
 end

@@ -1,7 +1,5 @@
 -- The street: he comes with the spark on his pole, reaches up to the last lamp, and it does not
 -- burn.
-local celspan = require "celspan"
-local keys = require "celspan.keys"
 local acting = require "film.acting"
 local lamp = require "film.lamp"
 local lamplighter = require "film.lamplighter"
@@ -102,10 +100,10 @@ local function mixed(a, b, u) return { a[1] + (b[1] - a[1]) * u, a[2] + (b[2] - 
 --- The position of the spark: on the pole, in the lamp, on its way down, in his mitten.
 local function spark_at(time, tip, palm_at)
   if time < at.spark_in then return mixed(tip, LAMP,
-    timing.share(time, at.spark_in - 0.12, 0.12)) end
+    motion.span(time, at.spark_in - 0.12, 0.12)) end
   if time < at.puff + 0.12 then return { LAMP[1], LAMP[2] + 20 } end
   local place = fall:at(time)
-  local u = timing.share(time, 12.08, at.caught - 12.08)
+  local u = motion.span(time, 12.08, at.caught - 12.08)
   if u == 0 then return place end
   return mixed(fall:at(12.08), palm_at, u * u)
 end
@@ -138,7 +136,7 @@ local function traces(x, way)
   end
   parts[#parts + 1] = street.shadow(x, GROUND, 120, 0.62)
   parts[#parts + 1] = street.shadow(LAMP[1], LAMP[2] + 590, 70, 0.5)
-  return celspan.union(parts)
+  return union(parts)
 end
 
 --- The flash in the lamp that promises everything.

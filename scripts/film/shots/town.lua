@@ -1,9 +1,5 @@
 -- The town again, by night: the light goes from the lamp through all the streets; the lamplighter
 -- trots home; one spark rises and stays as a star. Credits, and one window that keeps its light.
-local celspan = require "celspan"
-local ease = require "celspan.ease"
-local keys = require "celspan.keys"
-local motion = require "celspan.motion"
 local acting = require "film.acting"
 local credits = require "film.credits"
 local lamplighter = require "film.lamplighter"
@@ -68,7 +64,7 @@ local function walker(time)
   local lx = lens.project({ x = 0, y = 0, z = zoom:at(time) }, town.depths.town, LAMP[1], 0)
   local _, ly = lens.project({ x = 0, y = 0, z = zoom:at(time) }, town.depths.town, 0,
     LAMP[2] - 100)
-  return celspan.cel { celspan.union(parts), figure:scale(SCALE):translate(x, y),
+  return celspan.cel { union(parts), figure:scale(SCALE):translate(x, y),
     front = light.about(lx, ly, 460, 0.9, light.at("near", time)) }:named "lamplighter"
 end
 
@@ -76,7 +72,7 @@ end
 
 --- The brightness of the frame: it goes dark at the end, except for a glimmer.
 local function brightness_at(time)
-  return 1 - 0.96 * ease "inOutSine"(timing.share(time, at.fade, at.seconds - at.fade - 0.1))
+  return 1 - 0.96 * ease "inOutSine"(motion.span(time, at.fade, at.seconds - at.fade - 0.1))
 end
 
 --- The star that the spark becomes: four rays that open and pulsate. It fades out last.
@@ -87,12 +83,12 @@ local function star(time)
   local rays = {}
   for i = 0, 3 do
     local long = (i % 2 == 0 and 46 or 30) * open
-    rays[#rays + 1] = celspan.polygon { { 0, -long }, { 3.4, 0 }, { 0, 4 }, { -3.4, 0 },
-      texture = "#fff2cf" }:rotate(90 * i)
+    rays[#rays + 1] = polygon { { 0, -long }, { 3.4, 0 }, { 0, 4 }, { -3.4, 0 },
+      fill = "#fff2cf" }:rotate(90 * i)
   end
-  rays[#rays + 1] = celspan.circle { centre = { 0, 0 }, radius = 6 * open, texture = "#fffaf0" }
+  rays[#rays + 1] = circle { 0, 0, 6 * open, fill = "#fffaf0" }
   local function place(object) return object:translate(STAR[1], STAR[2]) end
-  return celspan.cel { place(celspan.union(rays)), front = light.scaled({ 1.3, 1.2, 1.05 }, kept) }
+  return celspan.cel { place(union(rays)), front = light.scaled({ 1.3, 1.2, 1.05 }, kept) }
       :named "star",
     celspan.cel { place(shapes.glow(0, 0, 230 * open, 1, 0.56, 0.26, 0.02)),
       front = light.scaled({ 9, 9, 9 }, kept) }
@@ -100,7 +96,7 @@ local function star(time)
 end
 
 local function rising_spark(time)
-  local u = ease "inOutSine"(timing.share(time, at.star_rises, at.star - at.star_rises))
+  local u = ease "inOutSine"(motion.span(time, at.star_rises, at.star - at.star_rises))
   if u == 0 or u == 1 then return end
   local trail = spark.trail(rising, u, 0.14)
   local place = trail[#trail]
