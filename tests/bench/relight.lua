@@ -99,6 +99,7 @@ measure("picture cels with alpha", picture_cels())
 
 local path, number = arg[1] or "scripts/demo.lua", tonumber(arg[2])
 package.path = (path:match "^.*/" or "./") .. "?.lua;" .. package.path
+setmetatable(_G, { __index = celspan.names {} }) -- as in scripts that the program runs
 local film = assert(loadfile(path))()
 local size = film.size
 local rostrum = film:at(number or film.first + film.frames // 2)

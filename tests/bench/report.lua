@@ -19,9 +19,9 @@ local function introduction()
   page:put [[
 # How fast it is
 
-`./run bench` measures everything and writes this page, its plots (drawn by celspan) and
-[the complete table](bench.csv). Parts can be measured alone: each table names its own, such as
-`./run bench shapes`. [This run](#this-run) says on which machine the figures were measured.
+For people who choose a renderer. `./run bench` measures everything and writes this page and [the
+complete table](bench.csv); each table names the part that measures it alone. [This run](#this-run)
+says on which machine.
 ]]
 end
 
@@ -29,17 +29,14 @@ local function drawings_and_films()
   page:put [[
 ## Drawings and films beside other renderers
 
-Antialiased, to 8-bit pixels, one thread. A figure is the time of the fastest of Skia, AGG, Qt and
-Cairo divided by celspan's, and its name: at 2, celspan takes half the time; below 1, the other is
-faster. Blend2D is not one of the four, because Debian has no package of it. Its published times,
-from another machine, are shorter than theirs, and at 1k several times shorter than celspan's: see
-the [plots](#scaling-with-size). 1k is 1024 pixels a side, 2k 2048, 4k 4096, 30k 30,000, 1M a
-million.
+Antialiased, to 8-bit pixels, one thread. A figure says how many times faster celspan is than the
+best of Skia, AGG, Qt and Cairo, which is named; below 1, the other is faster. Blend2D is not one of
+the four; its published times, from another machine, are at 1k several times shorter than celspan's:
+see the [plots](#scaling-with-size). 1k is 1024 pixels a side, 1M a million.
 ]]
   films.first(page)
   shapes.ratios(page)
   films.tables(page)
-  shapes.times(page)
 end
 
 --- The least and the most of the load average while the rows were measured.
@@ -55,14 +52,12 @@ local function this_run()
   local lines = machine.read(folder .. "/bench.txt")
   lines[#lines + 1] = { "load average while measuring", load_averages() }
   page:section { title = "## This run", lines = lines, text = [[
-- A figure is the median of several runs. The renderers of a line take turns, each in a process of
-  its own, which repeats its job for at least a fifth of a second.
-- Jobs with one thread are given in processor time, on which other programs have little influence;
-  files and jobs with several workers in time on the clock. The complete table has both.
+- A figure is the median of several runs, in which the renderers of a line take turns.
+- Jobs with one thread are given in processor time; files and jobs with several workers in time on
+  the clock.
 - celspan composes in linear light in floats; the others blend 8-bit values.
 - `~`: only a part of the rows was drawn, and the time was scaled up.
-- Blend2D is not in Debian. It is measured if `BLEND2D_ROOT` names a folder with its include/ and
-  lib/.
+- Blend2D is measured if `BLEND2D_ROOT` names its folder.
 ]], names = { "property", "value" } }
 end
 

@@ -22,10 +22,9 @@ function report.beside(page)
   page:section { title = "## Beside what people would pick instead", lines = lines, text = [[
 A film of 6 seconds, 1280 x 720, 25 frames a second, to PNG files: a gradient behind 30 moving
 discs with gradients, a title, and a drawing from an SVG file. Each script of
-[tests/bench/beside](../tests/bench/beside) is what a user would write first, and each program runs
-as it does by itself, with as many threads as it likes. *Processor* is that of all its processes;
-*memory* is the peak of the largest of them; *lines* are those of the script, which Synfig does not
-have, because its films are drawn (`./run bench beside`).
+[tests/bench/beside](../tests/bench/beside) is what a user would write first, with as many threads
+as the program likes. *Processor* is that of all its processes, *memory* the peak of the largest
+(`./run bench beside`).
 ]], names = { "program", "frames a second", "processor", "memory", "lines" } }
 end
 
@@ -47,9 +46,7 @@ local function raster(page)
     lines[i] = page:line({ scene }, { part = "raster", scene = scene }, columns, wall)
   end
   page:section { title = "### A picture over a picture", lines = lines, text = [[
-A picture of 2048 x 1536 with a soft matte over one of 3840 x 2160: turned and scaled, in
-perspective, or shifted by whole pixels; bilinear. celspan works in linear light and in floats
-(`./run bench raster`).
+A picture of 2048 x 1536 with a soft matte over one of 3840 x 2160, bilinear (`./run bench raster`).
 ]], names = page.names({ "job" }, columns) }
 end
 
@@ -63,9 +60,8 @@ local function defocus(page)
     end
   end
   page:section { title = "### Defocus", fixed = 2, lines = lines, text = [[
-A frame of 4096 x 4096, blurred; the others blur the pixels of the sharp frame with the same
-Gaussian (`./run bench defocus figure11`). `~`: scaled up from a part of the rows. `over`: stopped
-at this limit.
+A frame of 4096 x 4096; the others blur the pixels of the sharp frame with the same Gaussian
+(`./run bench defocus figure11`). `over`: stopped at this limit.
 ]], names = page.names({ "frame", "radius" }, columns) }
   if page.run:one { part = "defocus" } then page:plot("defocus", "defocus") end
 end
@@ -130,8 +126,8 @@ function report.files(page)
   end
   page:section { title = "## Files", lines = lines, text = [[
 Time on the clock, with the rendering (`./run bench png span cut film_png demo start`). OpenImageIO
-gets celspan's pixels, and only its writing is timed. ffmpeg lays a PNG file of each cel over the
-others, in the last frames of the film, where all cels are visible.
+gets celspan's pixels, and only its writing is timed. ffmpeg lays PNG files of the cels over each
+other.
 ]], names = page.names({ "job" }, columns) }
 end
 
@@ -142,9 +138,8 @@ function report.paper(page)
   if not page.run:one { part = "figure14" } then return end
   page:put "## The paper's figures\n"
   page:put [[
-Figure 13: 10 and 100 shapes to spans. The paper's machine took 8.5 s at 30,000 pixels per side, and
-its time was proportional to the side. Figure 14: drawn shapes in front of a photograph, as pictures
-or as geometry; the paper's machine took 2600 s and half of that (`./run bench shapes figure14`).]]
+Figure 13: 10 and 100 shapes to spans. Figure 14: drawn shapes in front of a photograph, as pictures
+or as geometry (`./run bench shapes figure14`).]]
   page:plot("figure13", "figure13")
   page:plot("figure14", "figure14")
 end

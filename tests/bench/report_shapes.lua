@@ -8,8 +8,7 @@ local scenes = require "tests.bench.scenes"
 local report = {}
 local seconds, time = results.seconds, targets.time
 
-local short = { [1024] = "1k", [2048] = "2k", [4096] = "4k", [30000] = "30k", [100000] = "100k",
-                [1000000] = "1M" }
+local short = { [1024] = "1k", [4096] = "4k", [30000] = "30k", [100000] = "100k", [1000000] = "1M" }
 local all_scenes = { scenes.artwork, scenes.random, scenes.hard, scenes.gradients }
 
 local function shown(row) return results.mark(row) .. time(seconds(row)) end
@@ -46,41 +45,20 @@ function report.ratios(page)
   for _, names in ipairs(all_scenes) do
     for _, scene in ipairs(names) do
       local line = { scene }
-      for _, side in ipairs { 1024, 2048, 4096, 30000 } do
+      for _, side in ipairs { 1024, 4096, 30000 } do
         line[#line + 1] = ratio_cell(page.run, scene, side)
       end
       lines[#lines + 1] = line
     end
   end
   page:section { lines = lines, text = [[
-A drawing once, at four sizes (`./run bench artwork shapes hard gradients`):
+A drawing once, at three sizes (`./run bench artwork shapes hard gradients`):
 
-- `mosquito`, `skaters`, `boating`: drawings of 155 to 159 paths. `clipart` (2053 paths), `emoji`
-  (983) and `twemoji` (426): sheets of about 64 drawings. `house`: 220 paths, drawn by code.
+- `mosquito`, `skaters`, `boating`: drawings of 155 to 159 paths. `clipart`, `emoji` and `twemoji`:
+  sheets of about 64 drawings. `house`: 220 paths, drawn by code.
 - `10`, `100`, `1000`: closed B-splines of random colour and alpha. `opaque`: the 1000, opaque.
   `small`: 10,000 of a twentieth of the side. `faint`: about 60 faint layers at each point.
-  `gradients-100`, `gradients-1000`: the 100 and the 1000, each with a linear gradient.
-]], names = { "drawing", "1k", "2k", "4k", "30k" } }
-end
-
---- The times behind the ratios, at the sizes of films.
-function report.times(page)
-  local columns = renderers "area"
-  table.insert(columns, 2, { "celspan, later frame", { renderer = "celspan",
-                                                       antialias = "again" } })
-  local lines = {}
-  for _, names in ipairs(all_scenes) do
-    for _, scene in ipairs(names) do
-      for _, side in ipairs { 1024, 4096 } do
-        lines[#lines + 1] = page:line({ scene, short[side] }, { part = "shapes", scene = scene,
-          side = side, output = "row" }, columns, shown)
-      end
-    end
-  end
-  page:section { title = "### Drawings, in time", fixed = 2, lines = lines, text = [[
-The times of the same drawings. *Later frame*: in a film that has shown the drawing before, which is
-then drawn from its [map](how-rows.md#maps).
-]], names = page.names({ "drawing", "side" }, columns) }
+]], names = { "drawing", "1k", "4k", "30k" } }
 end
 
 -- ---------------------------------------------------------------- size and memory
@@ -115,15 +93,12 @@ function report.scaling(page)
     columns[i] = { short[side], { side = side } }
   end
   for _, scene in ipairs(scenes.random) do
-    for _, antialias in ipairs { "area", "none" } do
-      lines[#lines + 1] = page:line({ scene, antialias }, { part = "shapes", scene = scene,
-        output = "spans", antialias = antialias, renderer = "celspan" }, columns, shown)
-    end
+    lines[#lines + 1] = page:line({ scene }, { part = "shapes", scene = scene, output = "spans",
+      antialias = "area", renderer = "celspan" }, columns, shown)
   end
-  page:section { title = "## Scaling with size", fixed = 2, lines = lines, text = [[
-celspan's time to colour spans, which are made and discarded, of 10, 100 and 1000 random shapes, at
-1,024 to 1,000,000 pixels a side (`./run bench shapes large`).
-]], names = page.names({ "shapes", "antialiasing" }, columns) }
+  page:section { title = "## Scaling with size", lines = lines, text = [[
+celspan's time to colour spans of 10, 100 and 1000 random shapes (`./run bench shapes large`).
+]], names = page.names({ "shapes" }, columns) }
   exponents(page)
   page:put [[
 In the plots, *Blend2D, published* are its best published times, on another machine; *fill of the
@@ -138,21 +113,18 @@ function report.memory(page)
   local columns, lines = renderers(), {}
   local function add(name, wanted) lines[#lines + 1] = page:line({ name }, wanted, columns,
     mebibytes) end
-  for _, scene in ipairs { "100", "1000" } do
-    local function shapes(name, side, output)
-      add(("%s shapes, %s"):format(scene, name), { part = "shapes", scene = scene, side = side,
-        output = output, antialias = "area" })
-    end
-    shapes("4k, to a reused row or band", 4096, "row")
-    shapes("4k, a whole picture", 4096, "whole")
-    shapes("30k, to a reused row or band", 30000, "row")
-    shapes("1M, to spans", 1000000, "spans")
+  local function shapes(name, side, output)
+    add("1000 shapes, " .. name, { part = "shapes", scene = "1000", side = side, output = output,
+      antialias = "area" })
   end
+  shapes("4k, to a reused row or band", 4096, "row")
+  shapes("4k, a whole picture", 4096, "whole")
+  shapes("30k, to a reused row or band", 30000, "row")
+  shapes("1M, to spans", 1000000, "spans")
   add("the demo film to PNG, 3840 x 2160", { part = "demo", scene = "240 frames", workers = 1 })
   page:section { title = "## Memory", lines = lines, text = [[
-The most memory of the whole process (`./run bench shapes large whole demo`). celspan has no frame
-buffer: its memory does not grow with the size of the frame, unless a whole picture is wanted. The
-others draw into a band of 256 rows (64 at 30k) that is reused.
+The most memory of the whole process (`./run bench shapes large whole demo`). The others draw into a
+band of 256 rows (64 at 30k) that is reused.
 ]], names = page.names({ "job" }, columns) }
 end
 
@@ -181,8 +153,7 @@ function report.exactness(page)
 *Worst* and *rms*: the error of celspan's worst pixel, and the root of the mean square over all
 pixels, in linear light, in units of 1/255; the truth is the mean of 512 x 512 samples in each pixel
 (`./run bench accuracy`). The other columns say how far other renderers' pictures are from celspan's
-in means of 16 x 16 pixels, all blending coded values (`./run bench agreement`); Cairo and Skia drop
-fractions of a value at each of the 60 layers of `faint`.
+in means of 16 x 16 pixels, all blending coded values (`./run bench agreement`).
 ]], names = page.names({ "drawing", "worst", "rms" }, columns) }
   local leaks = {}
   for _, cover in ipairs { "fans", "bars" } do

@@ -28,7 +28,7 @@ function shipped.lacks_module(path)
   local text = text_of(path)
   local function calls(...)
     for _, name in ipairs { ... } do
-      if text:find("celspan." .. name, 1, true) then return true end
+      if text:find("%f[%w_]" .. name .. " ?[.({]") then return true end
     end
   end
   if path:find "/paper/" then return not (present.pictures() and present.type()) end

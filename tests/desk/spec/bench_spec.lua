@@ -222,8 +222,8 @@ describe("the films of the benchmark", function()
     local page = page_of(rows)
     films.tables(page)
     local text = table.concat(page.out, "\n")
-    assert.truthy(text:find("| clipart | 1k | 4 ms | 5 ms | 6 ms | 2 ms | 8 ms | 9 ms | "
-      .. "0.50 times | 2.00 times, AGG |", 1, true))
+    assert.truthy(text:find("| clipart | 1k | 4 ms | 5 ms | 2 ms | 8 ms | 9 ms | 0.50 times |", 1,
+      true))
     assert.truthy(text:find("| nine painted layers | 100 ms | 150 ms | 1.50 times | 0.25 of 255 |",
       1, true))
   end)

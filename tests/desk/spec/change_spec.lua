@@ -135,7 +135,7 @@ end }]])
     local said
     code, said = render("--background '#0000ff80' -o " .. path("x.####.png"))
     assert.are.equal(2, code, said)
-    assert.are.equal(2, (render("--background blue -o " .. path("x.####.png"))))
+    assert.are.equal(2, (render("--background bluee -o " .. path("x.####.png"))))
   end)
 
   it("writes PNG without alpha if there is a background", function()

@@ -220,7 +220,7 @@ complete_words celspan render film.lua --format a
       end
       for _, asked in ipairs { "help motion blur", "help lua 'motion blur'" } do
         local _, list = celspan(asked)
-        assert.truthy(list:find('\n    docs/guide.md, "Exposures"\n', 1, true), list)
+        assert.truthy(list:find('\n    docs/guide-picture.md, "Exposures"\n', 1, true), list)
         assert.truthy(list:find("\n    celspan help lua shutter\n", 1, true), list)
       end
       usage_error("help xyzzyxyzzy", "there is nothing about 'xyzzyxyzzy'; celspan help lists")
@@ -235,9 +235,39 @@ complete_words celspan render film.lua --format a
     end)
   end)
 
+  it("lists the fonts that a film may read", function()
+    assert(os.execute(("mkdir -p '%s/type/sub'"):format(folder)))
+    bench:write("type/sub/one.ttf", "")
+    bench:write("two.otf", "")
+    bench:write("three.txt", "")
+    local code, out = celspan("fonts '" .. plain .. "'")
+    assert.equal(0, code)
+    assert.truthy(out:find("^two.otf\ntype/sub/one.ttf\nwith %-%-allow%-system%-fonts:\n")
+      or out:find("^type/sub/one.ttf\ntwo.otf\nwith "), out)
+    assert.same({ "two.otf", "type/sub/one.ttf" }, (function(list)
+      table.sort(list)
+      return list
+    end)(json.decode(select(2, celspan("fonts --json '" .. plain .. "'"))).fonts))
+  end)
+
+  it("says that a film is stretched", function()
+    local command = ("render '%s' -o '%s/x.png' --frames 1 --size "):format(plain, folder)
+    local _, _, err = celspan(command .. "50x100")
+    assert.truthy(err:find("is stretched to 50x100; --fit contain or --fit cover keeps its shape",
+      1, true), err)
+    for _, more in ipairs { "50x100 --fit stretch", "64x32" } do
+      _, _, err = celspan(command .. more)
+      assert.falsy(err:find("stretched", 1, true), err)
+    end
+  end)
+
   describe("wrong usage", function()
     it("suggests the nearest verb and the nearest option", function()
       usage_error("rendr x.lua", "did you mean 'render'?")
+      for word, verb in pairs { new = "init", preview = "watch", export = "render" } do
+        usage_error(word .. " x.lua", ("unknown verb '%s': did you mean '%s'?"):format(word, verb))
+      end
+      usage_error("render x.lua", "-o is missing: give -o film.mp4 for a video, -o shot.####.png")
       usage_error("shots/a.lua --frames 1", "'shots/a.lua' is a script, and a verb is missing "
         .. "before it: 'celspan play shots/a.lua' shows it, 'celspan render shots/a.lua -o ")
       usage_error("cat.svg", "'cat.svg' is a file, and a verb is missing before it: "
@@ -376,8 +406,8 @@ complete_words celspan render film.lua --format a
         failure(5, ("render %s --progress none --frames 1 -o %s/file/f.%s"):format(plain, folder,
           format), "frame 1: ")
       end
-      failure(6, "render " .. plain .. " --size 100000x1 --progress none --frames 1 -o " .. folder
-        .. "/f.jpg", "at most 65500")
+      failure(6, ("render %s --size 100000x1 --fit stretch --progress none --frames 1 -o %s/f.jpg")
+        :format(plain, folder), "at most 65500")
     end)
 
     it("of an impossible picture size end with 6", function()

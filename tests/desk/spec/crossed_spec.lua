@@ -195,7 +195,7 @@ end
 --- the frame, a part of what must be said; space: in which alone they are; every: one in that many
 --- rows is compared, because each takes a process.
 local COLUMNS = {
-  -- lua.md, celspan.pixels: coded from light, also where the film mixes codes
+  -- lua-rendering.md, celspan.pixels: coded from light, also where the film mixes codes
   { "pixels", "- > q.rgba", function()
     return function(number) return pixels_of(crossed.film(space, grain), number) end
   end, 1 },
@@ -211,7 +211,7 @@ local COLUMNS = {
   { "ffv1", "g.mkv --codec ffv1 --no-dither",
     after("ffmpeg -y -v error -i g.mkv -f rawvideo -pix_fmt rgba g.rgba", raw "g.rgba"), 0.01,
     has = present.program "ffmpeg" },
-  -- lua.md, celspan.plane: up to three codes
+  -- lua-rendering.md, celspan.plane: up to three codes
   { "plane", "h.####.plane", files("h.%04d.plane", function(path)
     return assert(assert(celspan.plane_read(path)):pixels {}):bytes()
   end), 3, is_near = true, refuses = plane_refuses },

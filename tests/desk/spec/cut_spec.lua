@@ -193,7 +193,7 @@ return cut { shot "#123", cut.iris { softness = 0.3 }(0.1), shot "#642",
     fails("push: field 'from' must be \"right\", \"left\", \"top\" or \"bottom\", got \"up\"",
       cut.push, { from = "up" })
     fails("iris: centre[2] must be a number, got nil", cut.iris, { centre = { 1 } })
-    fails("fade: the colour: ", cut.fade, 1, "blue")
+    fails("fade: the colour: ", cut.fade, 1, "blu")
     fails("with takes a function(a, b, u), got nil", cut.with)
     fails("cut: part 1: its film is the field 'film': { film = ..., from = ... }", cut,
       { { a, from = 2 } })
@@ -294,10 +294,10 @@ describe("a transition", function()
     local function of(result) return cut { a, cut.with(function() return result end)(1), b } end
     fails("weight must be a finite number of 0 or more, got nan", colour,
       of { { celspan.rostrum {}, 0 / 0 } }, 6)
-    fails("cut: exposure 1 must be {rostrum, weight}, got a rostrum", colour,
-      of { celspan.rostrum {} }, 6)
-    fails("cut: exposure 1 must show a rostrum, got nil", colour, of(nil), 6)
-    fails("cut: exposure 1 must show a rostrum, got number", colour, of { { 5, 1 } }, 6)
+    local wanted = " must be a rostrum, an object, a cel or a list of them, got "
+    fails("rostrum: size is missing", colour, of { celspan.rostrum {} }, 6)
+    fails("cut: what a transition shows" .. wanted .. "nil", colour, of(nil), 6)
+    fails("shows: exposure 1" .. wanted .. "number", colour, of { { 5, 1 } }, 6)
     local negative = celspan.film { size = { W, H }, fps = 4, frames = 8,
       frame = function() return { { celspan.rostrum {}, -1 } } end }
     fails("got -1", colour, cut { a, cut.dissolve(1), negative }, 6)

@@ -453,8 +453,8 @@ describe("a wrong effect", function()
     assert.matches("blur: .*kernel.*disk", raised(function()
       return disc:blur(1, { kernel = "disk" })
     end))
-    assert.matches("shadow: unknown field 'color'.*colour", raised(function()
-      return disc:shadow { color = "#fff" }
+    assert.matches("shadow: unknown field 'colur'.*colour", raised(function()
+      return disc:shadow { colur = "#fff" }
     end))
     assert.matches("shadow: .*blur.* 1e09", raised(function()
       return disc:shadow { blur = 1e9 }

@@ -98,7 +98,7 @@ describe("PNG and Targa files", function()
 
   it_reads("may be as long and thin as a million pixels by one, as PNG", function()
     for _, size in ipairs { "1000000x1", "1x1000000" } do
-      assert.are.same({ 0, "", "" }, { render("e.png", true, "--size " .. size) })
+      assert.are.same({ 0, "", "" }, { render("e.png", true, "--fit stretch --size " .. size) })
       local code, out = shell("oiiotool --stats e.png")
       assert.are.equal(0, code)
       assert.truthy(out:find(size:gsub("x", " x +") .. ","), out)
@@ -123,9 +123,10 @@ describe("PNG and Targa files", function()
   local LONG = { span = 0, tif = 0, exr = 0.003, dpx = 0.004, bmp = 0.004, ppm = 0.004, hdr = 0.06 }
   it_reads_pictures("may be as long and thin in all formats that allow it #full", function()
     for _, size in ipairs { side .. "x1", "1x" .. side } do
-      assert.are.same({ 0, "", "" }, { render("g.png", true, "--size " .. size) })
+      assert.are.same({ 0, "", "" }, { render("g.png", true, "--fit stretch --size " .. size) })
       for format, difference in pairs(LONG) do
-        assert.are.same({ 0, "", "" }, { render("g." .. format, true, "--size " .. size) })
+        assert.are.same({ 0, "", "" },
+          { render("g." .. format, true, "--fit stretch --size " .. size) })
         local code, out, err = celspan(("compare g.png g.%s --fail %g"):format(format, difference))
         assert.are.equal(0, code, format .. " " .. size .. ": " .. out .. err)
       end

@@ -62,9 +62,31 @@ end }]])
   end)
 end)
 
+describe("what a frame function returns", function()
+  it("is one value, and two are refused", function()
+    bench:write("film.lua", [[
+return film { size = { 64, 36 }, frames = 1, frame = function()
+  return circle { 9, 9, 5 }, circle { 20, 9, 5 }
+end }]])
+    refused(3, "film.lua:1: the frame function returned two values: write return { a, b }",
+      "check film.lua")
+  end)
+end)
+
+describe("a module that is not there", function()
+  it("may be one of celspan's, or the scenery of a recipe", function()
+    bench:write("film.lua", 'local rows = require "csv"')
+    refused(3, "module 'csv' not found; celspan's own is require \"celspan.csv\":",
+      "check film.lua")
+    bench:write("film.lua", 'local noto = require "stage.noto"')
+    refused(3, "not found; copy the folder scripts/stage of celspan beside the script:",
+      "check film.lua")
+  end)
+end)
+
 describe("a misspelt word", function()
   it("is answered with the nearest of those that are allowed", function()
-    for given, meant in pairs { center = "centre", middle = "centre", rigth = "right" } do
+    for given, meant in pairs { middle = "centre", rigth = "right" } do
       local message = raised.message(function()
         celspan.text { "A", font = "f.ttf", align = given }
       end)

@@ -68,7 +68,7 @@ describe("parameters", function()
       ["speed=nan"] = "--set: speed is 'nan'; it must be a number from 0 to 4",
       ["on=maybe"] = "--set: on is 'maybe'; it must be true, false, yes, no, 1 or 0",
       ["side=up"] = "--set: side is 'up'; it must be one of left, right",
-      ["tint=red"] = '--set: tint is \'red\'; it must be a colour, such as "#f80" or '
+      ["tint=redd"] = '--set: tint is \'redd\'; it must be a colour, such as "#f80" or '
         .. '"#ff8800"',
       ["take="] = "--set: take is ''; it must be the name of a file",
       ["sped=1"] = "--set: the script has no parameter 'sped'; did you mean 'speed'?",
@@ -166,8 +166,8 @@ return celspan.film { size = { 8, 8 }, frame = function() return celspan.rostrum
       ["speed = { 9, min = 0, max = 4 }"] =
         "'speed' has the default 9, which is not a number from 0 to 4",
       ["side = { 'a', 'b', 'a' }"] = "'side' has the choice \"a\" twice",
-      ["tint = { colour = 'red' }"] =
-        "'tint' has the default 'red', which is not a colour, such as \"#f80\" or \"#ff8800\"",
+      ["tint = { colour = 'redd' }"] =
+        "'tint' has the default 'redd', which is not a colour, such as \"#f80\" or \"#ff8800\"",
       ["speed = { 1, mni = 0 }"] =
         "'speed' is a number, which has no field 'mni'; did you mean 'min'?",
       ["side = { 'a', 'b', grop = 'x' }"] =

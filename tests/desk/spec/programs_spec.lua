@@ -187,7 +187,8 @@ describe("help --json", function()
       end
     end
     local radius = named(named(all.lua.nouns, "circle").fields, "radius")
-    assert.same({ true, 0, "number" }, { radius.required, radius.least, radius.type })
+    assert.same({ false, 0, "number" }, { radius.required, radius.least, radius.type })
+    assert.is_true(named(named(all.lua.nouns, "film").fields, "frame").required)
     assert.are.equal(24, named(named(all.lua.nouns, "film").fields, "fps").default)
     assert.are.equal("seconds",
       named(named(all.lua.functions, "celspan.motion.lag").parameters, "seconds").name)

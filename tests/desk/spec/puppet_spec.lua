@@ -780,3 +780,117 @@ describe("particles", function()
     for _, time in ipairs { 1e300, -1e300 } do assert.are.same({}, endless:at(time)) end
   end)
 end)
+
+-- ---------------------------------------------------------------- people and animals
+
+describe("a person", function()
+  local SVG = '<svg xmlns="http://www.w3.org/2000/svg" width="200" height="300">%s</svg>'
+  local LEFT = { torso = "80,60,40,110", Head = "80,0,40,60", arm_l = "70,70,20,70",
+    ["left forearm"] = "70,120,20,70", ["Thigh.R"] = "100,160,20,70", ["Shin.R"] = "100,210,20,70",
+    ["Foot.R"] = "70,260,50,20" }
+
+  local function drawn(parts)
+    local text = {}
+    for name, box in pairs(parts) do
+      local x, y, w, h = box:match "(%d+),(%d+),(%d+),(%d+)"
+      text[#text + 1] = ('<rect id="%s" x="%s" y="%s" width="%s" height="%s"/>'):format(
+        name:gsub(" ", "_"), x, y, w, h)
+    end
+    table.sort(text)
+    return svg.load(bench:write("person.svg", SVG:format(table.concat(text))))
+  end
+
+  --- The greatest distance of a foot on the ground from where it was set down.
+  local function slip(rig, gait, options)
+    local worst, down = 0, {}
+    for frame = 0, 60 do
+      local time = frame / 48
+      local pose = puppet[gait](rig, time, options)
+      for joint, target in pairs(pose.reach) do
+        local x, y = rig:joint(pose, joint)
+        x = x + rig:walked(time, options)
+        if target.loose then
+          down[joint] = nil
+        else
+          down[joint] = down[joint] or { x, y }
+          worst = math.max(worst, math.abs(x - down[joint][1]), math.abs(y - down[joint][2]))
+        end
+      end
+    end
+    return worst
+  end
+
+  with_art("is found by the names of its parts, of which some may be missing", function()
+    local rig = puppet.person { art = drawn(LEFT), bones = { { "hat", from = "neck", to = "crown",
+      parent = "head", parts = {} } } }
+    local names = {}
+    for name, bone in pairs(rig.bones) do
+      names[#names + 1] = name .. (bone.parent and " on " .. bone.parent.name or "")
+    end
+    table.sort(names)
+    assert.are.same({ "body", "foot far on shin far", "hat on head", "head on body",
+      "lower arm near on upper arm near", "shin far on thigh far", "thigh far on body",
+      "upper arm near on body" }, names)
+    assert.are.same({ 80, 80 }, rig.joints["shoulder near"])
+    assert.are.same({ 110, 270 }, rig.joints["ankle far"])
+    assert.are.same({ 80, 270 }, rig.joints["toe far"])
+  end)
+
+  with_art("whose foot points to the left walks to the left", function()
+    local rig = puppet.person { art = drawn(LEFT) }
+    assert.is_true(rig:walked(1) < 0)
+    assert.are.equal(-30, rig:walked(1, { stride = 30, pace = 2 }))
+    assert.are.same({ -150, 0 }, { rig.bones["shin far"].low, rig.bones["shin far"].high })
+  end)
+
+  with_art("sets its feet down where they stay, in every gait", function()
+    local child = puppet.person { art = svg.load "../../../scripts/drawings/child.svg",
+      switches = { "eye" } }
+    assert.is_true(slip(child, "walk") < 1e-9)
+    assert.is_true(slip(child, "run", { gait = "run" }) < 1e-9)
+    assert.is_true(slip(child, "walk", { stride = 90, pace = 1.3, bounce = 0 }) < 1e-9)
+    local fox = puppet.animal { art = layers.load "../../../scripts/paintings/fox.ora" }
+    for _, gait in ipairs { "walk", "trot", "gallop" } do
+      assert.is_true(slip(fox, gait, { gait = gait }) < 1e-9)
+    end
+  end)
+
+  with_art("has poses that mix, and keeps its feet where they are drawn", function()
+    local child = puppet.person { art = svg.load "../../../scripts/drawings/child.svg" }
+    local idle = puppet.idle(child, 0.7)
+    local x, y = child:joint(idle, "ankle near")
+    assert.is_true(math.abs(x - 150) + math.abs(y - 316) < 1e-9)
+    local pose = child.layer(child.mix(puppet.walk(child, 0.2), idle, 0.5),
+      puppet.wave(child, 0.2, { side = "left" }))
+    assert.is_true(select(2, child:joint(pose, "hand near")) < select(2, child:joint(pose, "neck")))
+    assert.are.equal(9, puppet.turn_head(child, 9).head)
+    assert.is_truthy(child:pose(pose):bounds())
+  end)
+
+  with_art("is refused in sentences", function()
+    local rig = puppet.person { art = drawn { body = "0,0,40,90", ["arm_l"] = "0,0,9,40" } }
+    raised.each {
+      ["puppet: the artwork has no part 'body': person needs one, named body or torso"] = function()
+        puppet.person { art = drawn { head = "0,0,40,90" } }
+      end,
+      ["puppet: the person has no legs: parts such as 'thigh near'"] = function()
+        puppet.walk(rig, 0)
+      end,
+      ["puppet: walk takes what puppet.person or puppet.animal returns, got table"] = function()
+        puppet.walk({}, 0)
+      end,
+      ["puppet: walk takes a time, a finite number, got nil"] = function()
+        puppet.walk(puppet.person { art = drawn(LEFT) })
+      end,
+      ["puppet: there is no gait 'galop'; did you mean 'gallop'?"] = function()
+        puppet.person { art = drawn(LEFT) }:walked(1, { gait = "galop" })
+      end,
+      ["puppet: walk: field 'pace' must be more than 0, got 0"] = function()
+        puppet.walk(puppet.person { art = drawn(LEFT) }, 1, { pace = 0 })
+      end,
+      ['puppet: wave: the figure has no arm on the side "far"'] = function()
+        puppet.wave(puppet.person { art = drawn(LEFT) }, 1, { side = "far" })
+      end,
+    }
+  end)
+end)

@@ -3,6 +3,7 @@
 -- than 300 frames a part, except with --all.
 
 package.path = "./scripts/?.lua;" .. package.path
+setmetatable(_G, { __index = require "celspan".names {} }) -- as in scripts that the program runs
 local shipped = require "tests.support.shipped"
 local system = require "tests.support.system"
 local workbench = require "tests.support.workbench"

@@ -237,7 +237,8 @@ describe("a drawing", function()
       assert.has_error(function() art:at(value) end)
     end
     assert.has_error(function() art:at() end)
-    assert.has_error(function() art:with({}):at(1) end)
+    local changed = art:with { ["#1"] = function(part) return part end }
+    assert.has_error(function() changed:at(1) end)
     assert.is_nil((read(""):at(1e12):bounds()))
   end)
 end)

@@ -314,6 +314,23 @@ describe("fonts", function()
     assert.is_truthy(message:find("tests/desk/spec/no-such.ttf: No such file", 1, true), message)
   end)
 
+  it("that are mistyped are refused with the nearest name in the folder", function()
+    local near = message_of { "A", font = FONT:gsub("block%.ttf$", "blok.ttf") }
+    assert.is_truthy(near:find('blok.ttf: No such file or directory; did you mean "block.ttf"? '
+      .. "'celspan fonts' lists the fonts there are", 1, true), near)
+  end)
+
+  it("have letters whose methods are those of their objects", function()
+    local letter = glyphs({ "A", font = FONT })[1]
+    local _, message = pcall(function() letter:rotate(10) end)
+    assert.is_truthy(message:find "a letter has no 'rotate': write letter.object:rotate%(...%)")
+    assert.is_nil(letter.nothing)
+    celspan.letters({ "A", font = FONT }, function(same)
+      _, message = pcall(function() same:scale(2) end)
+    end)
+    assert.is_truthy(message:find "a letter has no 'scale': write letter.object:scale%(...%)")
+  end)
+
   local bytes = read(PATH)
   local broken = {
     ["half of one"] = { bytes:sub(1, #bytes // 2), "the font is truncated" },

@@ -348,11 +348,11 @@ end)
 describe("options of trace.picture", function()
   it("are checked at the caller's line", function()
     for text, options in pairs {
-      ["unknown field 'colors'; did you mean 'colours'?"] = { colors = 3 },
+      ["unknown field 'colurs'; did you mean 'colours'?"] = { colurs = 3 },
       ["colours must be a whole number from 1 to 64, got 0"] = { colours = 0 },
       ["colours must be a whole number from 1 to 64, got 2.5"] = { colours = 2.5 },
-      ["colours[2] must be a colour like \"#336699\", got \"red\""] = {
-        colours = { "#fff", "red" } },
+      ["colours[2] must be a colour like \"#336699\", got \"redd\""] = {
+        colours = { "#fff", "redd" } },
       ["colours[2] must be a colour like \"#336699\", got nil"] = {
         colours = { "#fff", nil, "#000" } },
       ["smooth must be from 0 to 16, got 17"] = { smooth = 17 },

@@ -66,7 +66,7 @@ static void what_is_no_value_is_refused(void) {
   REFUSE(layout, "|DZI|zoom");
   REFUSE(progress, "|yes|JSON");
   REFUSE(model, "|affine|Perspective");
-  REFUSE(tint, "|red|#12|#11223380|1,1,1");
+  REFUSE(tint, "|redd|#12|#11223380|1,1,1");
 }
 
 static void limits_are_known_and_finite(void) {
@@ -168,7 +168,7 @@ static void names_are_what_they_say(void) {
 static void colours_are_what_they_say(void) {
   field f;
   const float *tint = (const void *)f.bytes;
-  CHECK(reads(&cs_argument_tint, "#f00", &f) && tint[0] == 1 && tint[1] == 0 && tint[2] == 0);
+  CHECK(reads(&cs_argument_tint, "red", &f) && tint[0] == 1 && tint[1] == 0 && tint[2] == 0);
   CHECK(reads(&cs_argument_tint, "#0000ff", &f) && tint[0] == 0 && tint[2] == 1);
 }
 

@@ -1,8 +1,8 @@
 -- Lines that wrap within a width, left-aligned, centred and right-aligned, with tracking;
 -- right-to-left lines, in which signs and numbers are reordered around letters that are not.
 local celspan = require "celspan"
-local function set(text, x, y, more)
-  local fields = { text, font = "../../../scripts/type/block.ttf", size = 9, at = { x, y },
+local function set(phrase, x, y, more)
+  local fields = { phrase, font = "../../../scripts/type/block.ttf", size = 9, at = { x, y },
     leading = 1.1,
     texture = "#fff" }
   for name, value in pairs(more or {}) do fields[name] = value end

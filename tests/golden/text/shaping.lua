@@ -2,8 +2,8 @@
 -- the drawn ones, and letters each placed individually.
 local celspan = require "celspan"
 local FONT = "../../../scripts/type/block.ttf"
-local function set(text, x, y, more)
-  local fields = { text, font = FONT, size = 14, at = { x, y }, texture = "#fff" }
+local function set(phrase, x, y, more)
+  local fields = { phrase, font = FONT, size = 14, at = { x, y }, texture = "#fff" }
   for name, value in pairs(more or {}) do fields[name] = value end
   return celspan.text(fields)
 end

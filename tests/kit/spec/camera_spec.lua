@@ -26,6 +26,14 @@ describe("multiplane", function()
     assert.are.same({ 25, 12.5, 50, 25 }, bounds(nil, false))
   end)
 
+  it("has planes of several cels, with or without a list of their own", function()
+    local one, two = cel():named "one", cel():named "two"
+    for _, plane in ipairs { { { one, two }, z = 9 }, { one, two, z = 9 } } do
+      local rostrum = multiplane { film = film, plane }
+      assert.are.same({ "one", "two" }, { rostrum[1].name, rostrum[2].name })
+    end
+  end)
+
   it("does not move the overlay", function()
     local caption = celspan.cel { celspan.rect { 1, 2, 3, 4 } }:named("caption")
     local rostrum = multiplane { film = film, camera = { x = 99, z = 50 }, over = { caption },
@@ -41,7 +49,7 @@ describe("multiplane", function()
     assert.is_truthy(message:find("camera_spec.lua:%d+: multiplane: plane 1 lies at or behind"),
       message)
     message = raised.message(function() multiplane { film = film, over = { 7 } } end)
-    assert.is_truthy(message:find("camera_spec.lua:%d+: multiplane: over%[1%] must be a cel"),
+    assert.is_truthy(message:find "camera_spec.lua:%d+: multiplane: over: item 1 must be a rostrum",
       message)
   end)
 

@@ -82,7 +82,7 @@ end)
 
 -- ---------------------------------------------------------------- dissolving
 
---- A hash of a square of the film, 0 to 1, from its definition (docs/lua.md).
+--- A hash of a square of the film, 0 to 1, from its definition (docs/lua-objects.md).
 local function number_of(x, y, seed)
   local z = seed << 8 -- SplitMix64
   z = z + 0x9e3779b97f4a7c15

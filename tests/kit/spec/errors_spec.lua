@@ -20,8 +20,8 @@ describe("a mistyped name", function()
   end)
 
   it("is reported with the field that has such values", function()
-    assert.are.equal("path: unknown field 'fill'; write rule = \"evenodd\"", sentence(function()
-      celspan.path { d = "M0 0 L1 1 L2 0", fill = "evenodd" }
+    assert.are.equal("path: unknown field 'winding'; write rule = \"evenodd\"", sentence(function()
+      celspan.path { d = "M0 0 L1 1 L2 0", winding = "evenodd" }
     end))
   end)
 
@@ -32,7 +32,7 @@ describe("a mistyped name", function()
   end)
 
   it("is reported with all names if none is near", function()
-    assert.are.equal("rect: unknown field 'sparkle'; the fields are radius, texture",
+    assert.are.equal("rect: unknown field 'sparkle'; the fields are radius, fill",
       sentence(function() celspan.rect { 0, 0, 1, 1, sparkle = true } end))
   end)
 
@@ -156,14 +156,15 @@ describe("a wrong type", function()
       function() celspan.rect { 0, 0, "1", 1 } end },
     { "rect: takes four numbers: x, y, width, height, got 5 values",
       function() celspan.rect { 0, 0, 1, 1, 1 } end },
-    { "circle: takes named fields only, but was given a value at place 1",
+    { "circle: takes {x, y, r}, got 1 value",
       function() celspan.circle { 3, centre = { 0, 0 }, radius = 1 } end },
     { "polygon: point 2 must be {x, y}, got number",
       function() celspan.polygon { { 0, 0 }, 3, { 1, 1 } } end },
     { 'polygon: field \'rule\' must be "nonzero" or "evenodd", got "odd"',
       function() celspan.polygon { { 0, 0 }, { 1, 0 }, { 1, 1 }, rule = "odd" } end },
-    { 'rect: field \'texture\' must be a paint, a texture or a colour like "#rrggbb", got "red"',
-      function() celspan.rect { 0, 0, 1, 1, texture = "red" } end },
+    { 'rect: field \'texture\' must be a paint, a texture or a colour like "#rrggbb", got "redd"; '
+      .. 'did you mean "red"?',
+      function() celspan.rect { 0, 0, 1, 1, texture = "redd" } end },
     { "nurbs: field 'degree' must be a whole number, got 2.5",
       function() celspan.nurbs { points = { { 0, 0 } }, degree = 2.5 } end },
     { "union: item 2 must be an object, got a cel",
@@ -185,8 +186,8 @@ describe("a wrong type", function()
       function() celspan.film { frames = 3 } end },
     { "film: give 'frames' or 'duration', not both",
       function() celspan.film { frames = 3, duration = 3, frame = print } end },
-    { "pixels: argument 1 must be a rostrum or a list {{rostrum, weight}, ...}, got a cel",
-      function() celspan.pixels(celspan.cel {}) end },
+    { "pixels: argument 1 must be a rostrum, an object, a cel or a list of them, got a paint",
+      function() celspan.pixels(celspan.clear) end },
     { "rostrum: antialias: radius is -1; it must be between 0 and 256",
       function() celspan.rostrum { antialias = { kernel = "gaussian", radius = -1 } } end },
   }
@@ -325,14 +326,14 @@ describe("reading an unknown field", function()
       function() return circle.raduis end },
     { "circle: unknown field 'transalte'; did you mean 'translate'?",
       function() circle:transalte(1, 2) end },
-    { "rect: unknown field 'color'; did you mean 'texture'?",
+    { "rect: unknown field 'color'; did you mean 'fill'?",
       function() return celspan.rect { 0, 0, 1, 1, color = "#fff" } end },
-    { "picture: unknown field 'color'; did you mean 'colour'?",
-      function() return celspan.picture { file = "a.png", color = "srgb" } end },
+    { "picture: unknown field 'colou'; did you mean 'colour'?",
+      function() return celspan.picture { file = "a.png", colou = "srgb" } end },
     { "circle: unknown field 'r'; did you mean 'radius'?",
       function() return celspan.circle { centre = { 0, 0 }, r = 3 } end },
-    { "circle: unknown field 'center'; did you mean 'centre'?",
-      function() return celspan.circle { center = { 0, 0 }, radius = 3 } end },
+    { "circle: unknown field 'cenrte'; did you mean 'centre'?",
+      function() return celspan.circle { cenrte = { 0, 0 }, radius = 3 } end },
     { "paint: unknown field 'betta'; did you mean 'beta'?",
       function() return celspan.clear.betta end },
     { "film: unknown field 'farmes'; did you mean 'frames'?",
@@ -428,8 +429,8 @@ describe("the library", function()
       function() motion.wiggle(0 / 0) end },
     { "shutter: field 'angle' must be 0..360 degrees, got 361",
       function() require "celspan.shutter" { frame = print, angle = 361.0 } end },
-    { "multiplane: plane 1 must be {cel, z = depth}, got {a rect}",
-      function() multiplane { film = { 8, 8 }, { celspan.rect { 0, 0, 1, 1 } } } end },
+    { "multiplane: plane 1 must be a rostrum, an object, a cel or a list of them, got string",
+      function() multiplane { film = { 8, 8 }, { "rect" } } end },
     { "rostrum: field 'front' must be a light {r, g, b}, {r, g, b, a} or \"#rrggbb\", got number",
       function() multiplane { film = { 8, 8 }, front = 3 } end },
     { "lips: field 'fps' must be above 0 and at most 1000, got -3",
@@ -437,6 +438,39 @@ describe("the library", function()
   }
   for _, case in ipairs(cases) do
     it("reports errors to the caller: " .. case[1], function()
+      assert.are.equal(case[1], sentence(case[2]))
+    end)
+  end
+end)
+
+describe("what is done in other programs", function()
+  local dot = celspan.circle { centre = { 0, 0 }, radius = 3 }
+  local motion, multiplane = require "celspan.motion", require "celspan.multiplane"
+  local cases = {
+    { "objects are no numbers: a | b shows both, a - b cuts b out, and a:scale(2) makes it larger",
+      function() return dot + dot end },
+    { "a circle is no function: leave out the parentheses, as in art.object",
+      function() return dot() end },
+    { "cel: item 1 must be an object, got table; its field `object` is one: write .object after it",
+      function() return celspan.cel { { object = dot } } end },
+    { "a way is no function: write value:at(...)",
+      function() dot:move_to(motion.along { { 0, 0 }, { 1, 0 } }(0.5)) end },
+    { "circle: unknown field 'opacity'; did you mean 'fade'?", function() dot:opacity(0.5) end },
+    { "circle: unknown field 'squash'; did you mean 'scale'?", function() dot:squash(0.5) end },
+    { "circle: unknown field 'stroke'; value:stroke { width = 2, fill = ... } is the line along "
+        .. "its edge",
+      function() celspan.circle { 0, 0, 3, stroke = "red" } end },
+    { "cel: unknown field 'z'; multiplane { film = f.size, { cel, z = ... } } has depths",
+      function() celspan.cel { dot, z = 100 } end },
+    { "glyphs: unknown field 'bold'; write variations = { wght = 700 }",
+      function() celspan.glyphs { "A", font = "type/block.ttf", bold = true } end },
+    { "multiplane: plane 1: write z = 1000 for its depth",
+      function() multiplane { film = { 8, 8 }, { dot, 1000 } } end },
+    { "celspan has no 'wiggle'; write motion.wiggle(seed):at(f.time)",
+      function() return celspan.wiggle end },
+  }
+  for _, case in ipairs(cases) do
+    it("is refused with what to write here: " .. case[1], function()
       assert.are.equal(case[1], sentence(case[2]))
     end)
   end

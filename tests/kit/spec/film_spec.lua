@@ -68,11 +68,11 @@ describe("a film", function()
   end)
 
   it("reports what a frame function must return", function()
-    local film = celspan.film { frame = function() return celspan.cel {} end }
+    local film = celspan.film { frame = function() return "cel" end }
     local line = debug.getinfo(1, "l").currentline - 1
     local message = raised.message(film.at, film, 1)
     assert.is_truthy(message:find(("film_spec.lua:%d: frame 1: the frame function's result "
-      .. "must be a rostrum or a list"):format(line), 1, true), message)
+      .. "must be a rostrum, an object"):format(line), 1, true), message)
   end)
 
   it("finds a line for an error without one", function()
@@ -113,6 +113,8 @@ describe("f", function()
     for number = 1, 7 do held[number] = frame_of(number, { frames = 7 }):on(3) end
     assert.are.same({ 0, 0, 0, 3, 3, 3, 6 }, held)
     assert.are.equal(2, frame_of(4, { frames = 7 }):on(4 / 2))
+    local frame = frame_of(6, { frames = 7, fps = 10 })
+    assert.are.same({ 0.4, 0.3 }, { frame:twos(), frame:threes() })
     raised.message(frame_of(4, { frames = 7 }).on, frame_of(4, { frames = 7 }), 1.5)
   end)
 

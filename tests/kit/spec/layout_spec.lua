@@ -51,17 +51,17 @@ describe("layout", function()
       ["row: item 2 must be an object, got number"] = function()
         celspan.row { rect(0, 0, 1, 1), 3 }
       end,
-      ['row: align must be "bottom", "centre", "top", got "center"; did you mean "centre"?'] =
-        function() celspan.row { align = "center" } end,
+      ['row: align must be "bottom", "centre", "top", got "cente"; did you mean "centre"?'] =
+        function() celspan.row { align = "cente" } end,
       ["column: unknown field 'gpa'; did you mean 'gap'?"] = function()
         celspan.column { gpa = 2 }
       end,
       ["grid: field 'columns' must be a whole number of at least 1, got nil"] = function()
         celspan.grid {}
       end,
-      ['fit: the third argument must be "centre", "left", "right", got "center"; did you mean '
+      ['fit: the third argument must be "centre", "left", "right", got "cente"; did you mean '
         .. '"centre"?'] = function()
-        celspan.fit(celspan.rect { 0, 0, 1, 1 }, { 0, 0, 9, 9 }, "center")
+        celspan.fit(celspan.rect { 0, 0, 1, 1 }, { 0, 0, 9, 9 }, "cente")
       end,
       ["align: box[4] must be a number, got nil"] = function()
         celspan.align(rect(0, 0, 1, 1), { 1, 2, 3 })
@@ -129,6 +129,7 @@ describe("letters", function()
       local texts = {}
       celspan.letters({ "He is\nin", font = FONT, size = 100 }, function(letter, i, n)
         texts[#texts + 1] = ("%d/%d %s %d"):format(i, n, letter.text, letter.line)
+        assert.are.equal(letter.x + letter.advance / 2, letter.middle)
         return letter.object
       end, by and { by = by })
       return table.concat(texts, ", ")
@@ -150,6 +151,7 @@ describe("letters", function()
   local function places(text, options)
     local found = {}
     celspan.letters(text, function(letter)
+      assert.are.equal(letter.x, letter.middle)
       found[#found + 1] = { letter.x, letter.y, letter.degrees }
       return letter.object
     end, options)
@@ -165,6 +167,9 @@ describe("letters", function()
       assert.near(510 + middle, straight[i][1], 1e-9)
       assert.near(20, straight[i][2], 1e-9)
     end
+    local by_place = places({ "HH", 40, 7, font = FONT, size = 100 }, { along = "M10 20 H1010",
+      start = 0.5 })
+    assert.are.same(straight, by_place)
     local x, y, w, h = celspan.letters(text, nil, { along = "M10 20 H1010", start = 0.5 }):bounds()
     local tx, ty, tw, th = celspan.text(text):bounds()
     assert.are.same({ 0, 0, 0, 0 }, { -- the same letters, moved

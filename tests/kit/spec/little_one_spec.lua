@@ -2,6 +2,7 @@
 package.path = "./scripts/?.lua;" .. package.path
 local celspan = require "celspan"
 require "celspan.spec"
+setmetatable(_G, { __index = celspan.names {} }) -- as in scripts that the program runs
 
 local is_there, film = pcall(dofile, "scripts/film.lua")
 if not is_there then

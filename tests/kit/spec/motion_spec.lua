@@ -88,3 +88,61 @@ it("a wiggle has a number at every time", function()
     assert.is_true(value >= -1 and value <= 1, tostring(value))
   end
 end)
+
+describe("a span of time", function()
+  it("is 0 before, 1 after, and eased between", function()
+    local found = {}
+    for i, time in ipairs { 0, 2, 2.5, 4, 9 } do found[i] = motion.span(time, 2, 2) end
+    assert.are.same({ 0, 0, 0.25, 1, 1 }, found)
+    assert.are.equal(0.0625, motion.span(2.5, 2, 2, "inQuad"))
+    assert.are.equal(0.5, motion.span(3, 2, 2, function(u) return u end))
+    assert.are.same({ 0, 1 }, { motion.span(1.9, 2, 0), motion.span(2, 2, 0) })
+  end)
+
+  it("refuses what is no time", function()
+    raised.each {
+      ["motion: span: the length must be at least 0, got -1"] = function()
+        motion.span(1, 2, -1)
+      end,
+      ["motion: span: length must be a finite number, got nil"] = function() motion.span(1, 2) end,
+      ['ease: there is no curve "outBak"; did you mean'] = function()
+        motion.span(1, 0, 2, "outBak")
+      end,
+    }
+  end)
+end)
+
+describe("times", function()
+  local t = motion.times { { "rise", 1 }, { 0.3 }, { "turn", 0.5 }, { "fall", 1 }, overlap = 0.25 }
+
+  it("are one after another, with pauses and overlaps", function()
+    near({ 0, 1, 1.3, 1.8, 1.55, 2.55, 2.55 }, t.rise.from, t.rise.to, t.turn.from, t.turn.to,
+      t.fall.from, t.fall.to, t.length)
+    near({ 0, 0.5, 1, 0.25 }, t.turn:at(1), t.turn:at(1.55), t.turn:at(3),
+      t.turn:at(1.55, "inQuad"))
+  end)
+
+  it("are marks of a film", function()
+    assert.are.same({ rise = { 1, 24 }, turn = { 32, 43 }, fall = { 38, 61 } }, t:marks(24))
+    assert.are.same({ 101, 110 }, t:marks(10, 101).rise)
+  end)
+
+  it("refuse wrong items", function()
+    raised.each {
+      ["motion: times: item 2 cannot have the name 'rise', which another has"] = function()
+        motion.times { { "rise", 1 }, { "rise", 2 } }
+      end,
+      ["motion: times: item 1 cannot have the name 'length', which the list of times needs"] =
+        function() motion.times { { "length", 1 } } end,
+      ["motion: times: item 1 needs its seconds, a finite number of at least 0, got nil"] =
+        function() motion.times { { "rise" } } end,
+      ["motion: times: item 1 must be { name, seconds }, or a pause { seconds }, got number"] =
+        function() motion.times { 3 } end,
+      ["motion: times: unknown field 'overlp'; did you mean 'overlap'?"] = function()
+        motion.times { { "rise", 1 }, overlp = 1 }
+      end,
+      ["the list of times has no 'trun'; did you mean 'turn'?"] = function() return t.trun end,
+      ["motion: times: at takes a time, a finite number, got nil"] = function() t.rise:at() end,
+    }
+  end)
+end)

@@ -320,12 +320,12 @@ describe("object:paint", function()
 
   it("is nothing of nothing, and refuses what is no texture", function()
     assert.are.equal(0, #{ celspan.union {}:paint("#f00"):bounds() })
-    for _, given in ipairs { { "red" }, { 3 }, {} } do
+    for _, given in ipairs { { "redd" }, { 3 }, {} } do
       assert.is_truthy(raised.message(function() fruit:paint(given[1]) end):find(
-        "paint: field 'texture' must be a paint, a texture or a colour", 1, true))
+        "' must be a paint, a texture or a colour", 1, true))
     end
     assert.is_truthy(raised.message(function() fruit:with { texture = "#f00" } end):find(
-      "write object:paint(texture)", 1, true))
+      "write object:paint(fill)", 1, true))
   end)
 end)
 
@@ -354,8 +354,8 @@ describe("a colour as a string", function()
       local arguments = table.pack(...)
       return (raised.sentence(function() call(table.unpack(arguments)) end))
     end
-    assert.are.equal('rgb: takes numbers or a colour like "#rrggbb", got "red"',
-      sentence(celspan.rgb, "red"))
+    assert.are.equal('rgb: takes numbers or a colour like "#rrggbb", got "redd"; did you mean '
+      .. '"red"?', sentence(celspan.rgb, "redd"))
     assert.are.equal('gel: takes numbers or a colour like "#rrggbb", got "#12"',
       sentence(celspan.gel, "#12"))
     assert.are.equal('paint: field \'pigment\' must be {r, g, b} or a colour like "#rrggbb", '

@@ -52,11 +52,11 @@ describe("wrong calls", function()
         "field 'depth' must be 8, 16" },
       { function()
         celspan.pixels({ 3 }, one)
-      end, "exposure 1 must be {rostrum, weight}, got number" },
+      end, "argument 1: item 1 must be a rostrum, an object" },
       { function() celspan.pixels({ { film } }, one) end,
-        "exposure 1: its first value must be a rostrum, got a film" },
+        "item 1: item 1 must be a rostrum, an object, a cel or a list of them, got a film" },
       { function() celspan.pixels({ { rostrum, "x" } }, one) end, "exposure 1" },
-      { function() celspan.pixels(3, one) end, "must be a rostrum or a list" },
+      { function() celspan.pixels(3, one) end, "must be a rostrum, an object" },
       { function() celspan.render(film, 3) end, "render" },
       { function() celspan.render(3, "a.png") end, "argument 1 must be a film or a rostrum" },
       { function() celspan.render(film, "/tmp/celspan-none/#.png", { progress = 3 }) end,
