@@ -1,5 +1,5 @@
--- Prints docs/gallery.md: each film of scripts/ with its picture, its words, which are the first
--- paragraph of the script, and its commands. From the top of the tree:
+-- Prints docs/gallery.md: each film of scripts/ with its picture and its words, which are the first
+-- sentence of the script. From the top of the tree:
 --
 --   lua5.4 docs/pictures/gallery.lua > docs/gallery.md
 package.path = "./?.lua;" .. package.path
@@ -7,7 +7,7 @@ local list = require "docs.pictures.list"
 local system = require "tests.support.system"
 
 local FIRST = { "film", "demo" } -- the others follow by name
-local BY_HAND = { film = "`./run film`" } -- which also makes the sound
+local BY_HAND = { film = "`./run film` makes it, with its sound." }
 
 local picture_of = {}
 for _, picture in ipairs(list) do
@@ -22,7 +22,8 @@ local function words_of(path)
     if not text then break end
     words[#words + 1] = text
   end
-  return table.concat(words, " ")
+  local text = table.concat(words, " ")
+  return text:match "^.-[.!?]%f[ \0]" or text
 end
 
 local function put(name)
@@ -31,17 +32,16 @@ local function put(name)
   if picture_of[name] then
     io.write(("![%s](pictures/%s.png)\n\n"):format(name, picture_of[name]))
   end
-  local commands = ("`celspan play %s`, `celspan render %s -o %s.mp4`"):format(path, path, name)
-  io.write(words_of(path), "\n\n", BY_HAND[name] or commands, "\n")
+  io.write(words_of(path), BY_HAND[name] and " " .. BY_HAND[name] or "", "\n")
 end
 
 io.write [[
 # Gallery
 
-The films of this repository, each with its script to take apart, and with the commands that show
-it and make a video of it. `./run docs` makes this page. [The cookbook](cookbook.md) has shorter
-scripts, one for each task. [`celspan watch`](watch.md) shows a film again each time its script is
-saved, here a small film of five shots:
+For people who look for an idea: the films of this repository, each with its script to take apart.
+`celspan play scripts/demo.lua` shows one, and `celspan render scripts/demo.lua -o demo.mp4` makes a
+video of it. [The cookbook](cookbook.md) has shorter scripts, one for each task. [`celspan
+watch`](watch.md) shows a film again each time its script is saved, here a small film of five shots:
 
 ![the page of celspan watch](pictures/watch.png)
 ]]

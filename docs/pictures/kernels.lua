@@ -1,6 +1,5 @@
 -- The frames of scripts/kernels.lua side by side, four times as large, each with its kernel; first
 -- the art itself. An argument names the folder with the frames, kernels.N.png, and kernels.art.png.
-local celspan = require "celspan"
 
 local folder = ...
 local WIDTH, HEIGHT, GAP = 384, 160, 16
@@ -34,14 +33,14 @@ local function profile(kernel)
   end
   outline[#outline + 1] = { 38, 0 }
   outline.texture = "#e4572e"
-  return celspan.polygon(outline) | celspan.rect { -38, -0.75, 76, 1.5, texture = "#1f2a44" }
+  return polygon(outline) | rect { -38, -0.75, 76, 1.5, fill = "#1f2a44" }
 end
 
 local function panel(name)
-  local picture = celspan.image { file = folder .. "/kernels." .. name .. ".png", w = WIDTH,
+  local picture = image { file = folder .. "/kernels." .. name .. ".png", w = WIDTH,
     h = HEIGHT,
-                                  sampling = "nearest" }
-  return celspan.clip(picture, celspan.rect { 0, 0, WIDTH, HEIGHT, radius = 12 })
+                          sampling = "nearest" }
+  return clip(picture, rect { 0, 0, WIDTH, HEIGHT, radius = 12 })
 end
 
 local panels = { panel "art" }
@@ -53,7 +52,7 @@ for i, object in ipairs(panels) do
   panels[i] = object:translate(GAP + column * (WIDTH + GAP), GAP + row * (HEIGHT + GAP))
 end
 
-return celspan.film {
+return film {
   size = { 2 * WIDTH + 3 * GAP, 4 * HEIGHT + 5 * GAP }, frames = 1,
-  frame = function() return celspan.rostrum { celspan.cel(panels), back = "#1f2a44" } end,
+  frame = function() return { cel(panels), back = "#1f2a44" } end,
 }

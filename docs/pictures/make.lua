@@ -45,7 +45,7 @@ end
 
 local parts = folder .. "/parts"
 run("mkdir -p", folder .. "/examples", parts)
-run("cp -r scripts/type scripts/paintings scripts/pictures scripts/drawings",
+run("cp -r scripts/type scripts/paintings scripts/pictures scripts/drawings scripts/stage",
   folder .. "/examples/")
 -- A script gets an absolute path, because it looks for files beside itself, and may read there.
 local pwd = assert(io.popen "pwd"):read "l"

@@ -1,6 +1,5 @@
 -- The moving picture of the front page: frames of Little One, from the folder of film.####.png in
 -- the argument. The last ones dissolve into the first ones, so that it loops without a jump.
-local celspan = require "celspan"
 
 local folder = ...
 local FIRST, STEP, COUNT = 397, 2, 96 -- frames of the film that were rendered
@@ -8,11 +7,11 @@ local DISSOLVE = 8
 
 local function exposure(index, weight)
   local name = ("%s/film.%04d.png"):format(folder, FIRST + STEP * index)
-  local picture = celspan.image { file = name, w = 640, h = 360 }
-  return { celspan.rostrum { celspan.cel { picture } }, weight }
+  local picture = image { file = name, w = 640, h = 360 }
+  return { rostrum { cel { picture } }, weight }
 end
 
-return celspan.film {
+return film {
   title = "Little One, round and round", size = { 640, 360 }, fps = 12, frames = COUNT - DISSOLVE,
   frame = function(f)
     local index = f.index + DISSOLVE -- the first ones are seen at the end
