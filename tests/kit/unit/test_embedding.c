@@ -447,7 +447,7 @@ static void check_sandbox(void) {
 
   CHECK_TEXT(call(&h, "return shown()", CELSPAN_OK), "by the host");
   CHECK_TEXT(call(&h, "return type(kept) .. #('x'):rep(9)", CELSPAN_OK), "nil9");
-  CHECK_TEXT(call(&h, "return io", CELSPAN_CALLBACK), "film:1: io is not in the sandbox");
+  CHECK_TEXT(call(&h, "return os", CELSPAN_CALLBACK), "film:1: os is not in the sandbox");
   CHECK_TEXT(call(&h, "local function turn() while true do end end turn()", CELSPAN_LIMIT),
              "film:1: more than 20000000 steps in a frame");
   CHECK_TEXT(call(&h, "return ('x'):rep(15000000)", CELSPAN_LIMIT),
