@@ -4,7 +4,7 @@
 ---   ---@noun circle: celspan.object        a value, and the class that it extends
 ---   ---@noun camera                        a table of options
 ---
---- from the rows of its fields, which are in src/lua; in the place of a line
+--- from the rows of its fields, which are in src/kit/lua; in the place of a line
 ---
 ---   ---@written row: layout.row            celspan.row, which is this function of a module
 ---

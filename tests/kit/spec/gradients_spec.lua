@@ -140,7 +140,7 @@ describe("a gradient without points", function()
     assert.are.same(seen(rect "#f00"), seen(rect(linear { "#f00" })))
   end)
 
-  it("repeats if it is told to", function()
+  it("has a spread, too", function()
     assert.are.same(
       seen(rect(radial { centre = { 60, 40 }, radius = 40, spread = "reflect",
         matrix = { 1, 0, 0, 0, 0.75, 10, 0, 0, 1 }, { 0, "#f00" }, { 1, "#00f" } })),

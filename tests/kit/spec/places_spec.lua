@@ -60,7 +60,7 @@ describe("a place", function()
     assert.are.equal(none, none:move_to(3, 4))
   end)
 
-  it("is refused if there is none of its name", function()
+  it("with an unknown name is refused", function()
     raised.each {
       ['rotate: there is no place "botom"; did you mean "bottom"?'] = function()
         card:rotate(3, "botom")
