@@ -233,6 +233,13 @@ describe("render", function()
       .. "f.number)", 1, true), message)
   end)
 
+  it("says that a number of frames has no fields", function()
+    local bad = film { frame = function(f) return f:on(2).time end }
+    local _, message = celspan.render(bad, folder .. "e.####.png")
+    assert.is_truthy(message:find("index a number value (a number has no fields: f:on(2), f:twos() "
+      .. "and f.time are numbers themselves)", 1, true), message)
+  end)
+
   it("reports its progress, and stops on request", function()
     local shares, last = {}, 0
     assert(celspan.render(film { frames = 2 }, folder .. "f.#.png", { workers = 1,

@@ -29,8 +29,8 @@ static void push_chain(lua_State *L, const char *message, const char *position) 
     cs_caller_push_chain(L, position, lua_tocfunction(L, lua_upvalueindex(2)));
 }
 
-/* Pushes a hint that Lua's own message about the argument of a frame function, or about a global
- * without a value, lacks. */
+/* Pushes a hint that Lua's own message lacks: about the argument of a frame function, a number of
+ * frames that is used like a frame, or a global without a value. */
 static const char *push_hint(lua_State *L, const char *message) {
   static const char before[] = "a nil value (global '";
   const char *attempt = strstr(message, "attempt to "), *name = strstr(message, before);
@@ -41,6 +41,8 @@ static const char *push_hint(lua_State *L, const char *message) {
     lua_pushlstring(L, name, strcspn(name, "'"));
     return cs_names_push_hint(L, lua_tostring(L, -1));
   }
+  if (attempt && strstr(message, "index a number value"))
+    return " (a number has no fields: f:on(2), f:twos() and f.time are numbers themselves)";
   return attempt && strstr(message, "celspan.frame")
              ? " (a frame function gets a table: write f.time, f.progress or f.number)"
              : "";
