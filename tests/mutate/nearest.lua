@@ -202,8 +202,6 @@ return {
   ["lua/celspan/draw/echo.lua"] = { "spec/layout" },
   ["lua/celspan/film/grain.lua"] = { "spec/noise" },
   ["lua/celspan/film/background.lua"] = { "spec/short" },
-  ["lua/celspan/film/shown.lua"] = { "spec/short" },
-  ["lua/celspan/base/names.lua"] = { "spec/globals", "spec/short" },
   ["lua/celspan/draw/merge.lua"] = { "spec/operators" },
   ["lua/celspan/draw/operators.lua"] = { "spec/operators" },
   ["lua/celspan/draw/repeater.lua"] = { "spec/operators" },

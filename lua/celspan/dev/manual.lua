@@ -116,7 +116,7 @@ end
 
 --- Lines that give the globals of scripts their types.
 local function globals()
-  local lines, module_of = require "celspan.names".list()
+  local lines, module_of = native.names()
   for i, name in ipairs(lines) do
     lines[i] = name .. " = " .. (module_of[name] and ("require %q"):format(module_of[name])
       or "celspan." .. name)

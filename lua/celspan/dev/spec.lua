@@ -18,7 +18,6 @@ local celspan = require "celspan"
 local native = require "celspan.native"
 local fields = require "celspan.fields"
 local ordered = require "celspan.ordered"
-local shown = require "celspan.shown"
 
 local spec = {}
 
@@ -180,7 +179,7 @@ end
 
 --- The exposures of a frame, each {rostrum, weight}.
 local function exposures_of(subject)
-  return shown.list("film:at", subject.film:at(subject.frame))
+  return native.exposures("film:at", subject.film:at(subject.frame))
 end
 
 --- The cels of a rostrum for which `keeps` is true, and all names.

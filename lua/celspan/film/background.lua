@@ -1,7 +1,6 @@
 --- The background of a film: a cel behind everything in each rostrum of a frame, which covers what
 --- the camera sees.
 local celspan = require "celspan"
-local shown = require "celspan.shown"
 
 local background = {}
 
@@ -14,7 +13,8 @@ local function sheet(surface, w, h)
   return celspan.rect { -x, -y, w + 2 * x, h + 2 * y, fill = surface }
 end
 
-local function of_rostrum(rostrum, film)
+--- A rostrum with the background of its film.
+function background.of_rostrum(rostrum, film)
   local w, h = table.unpack(rostrum.size or film.size)
   local cel, camera = celspan.cel { sheet(film.background, w, h), front = "#fff" }, rostrum.camera
   if camera then
@@ -24,8 +24,5 @@ local function of_rostrum(rostrum, film)
   end
   return rostrum:with { cel:named "background", table.unpack(rostrum) }
 end
-
---- The exposures of a frame with the background of its film.
-function background.of_film(exposures, film) return shown.each(exposures, of_rostrum, film) end
 
 return background

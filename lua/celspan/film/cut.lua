@@ -14,7 +14,6 @@ local native = require "celspan.native"
 local ease = require "celspan.ease"
 local edges = require "celspan.edges"
 local fields = require "celspan.fields"
-local shown = require "celspan.shown"
 local keys = require "celspan.keys"
 local ordered = require "celspan.ordered"
 local shots_of = require "celspan.shots"
@@ -24,7 +23,7 @@ local cut = {}
 --- The result of a frame function, or of the function of cut.with, as a list of { rostrum, weight
 --- }.
 local function exposures_of(result)
-  local list = shown.list("cut: what a transition shows", result)
+  local list = native.exposures("cut: what a transition shows", result)
   for i, exposure in ipairs(list) do
     local weight = exposure[2]
     fields.expect(fields.is_finite(weight) and weight >= 0, weight,
@@ -358,7 +357,7 @@ end
 --- The exposures with cels over them: one, or a list of them.
 local function lay_over(exposures, cels, f, size)
   local list, total = {}, 0
-  cels = shown.cels("cut: over", cels)
+  cels = native.cels("cut: over", cels)
   for i, exposure in ipairs(exposures_of(exposures)) do
     local shot = exposure[1]
     total = total + exposure[2]

@@ -4,7 +4,6 @@
 -- 2 s - 1 to a code, so a source s = 1/2 + amount n / (2 DEVIATION) has the deviation of `amount`.
 local celspan = require "celspan"
 local native = require "celspan.native"
-local shown = require "celspan.shown"
 
 local grain = {}
 
@@ -43,16 +42,11 @@ function grain.of_objects(options, frame, list)
 end
 
 --- A rostrum with the grain of its film, unless it has its own.
-local function of_rostrum(rostrum, film, frame)
+function grain.of_rostrum(rostrum, film, frame)
   if rostrum.grain then return rostrum end
   local own = { frame = frame }
   for name, value in pairs(film.grain) do own[name] = value end
   return rostrum:with { grain = own, space = rostrum.space or film.space or "linear" }
-end
-
---- The exposures of a frame with the grain of its film.
-function grain.of_film(exposures, film, frame)
-  return shown.each(exposures, of_rostrum, film, frame)
 end
 
 return grain

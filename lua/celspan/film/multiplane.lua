@@ -19,7 +19,6 @@
 local celspan = require "celspan"
 local native = require "celspan.native"
 local fields = require "celspan.fields"
-local shown = require "celspan.shown"
 local scenes = require "celspan.scenes"
 
 local known = { "planes", film = "table", camera = "table", focal = "number", focus = "number",
@@ -96,7 +95,7 @@ end
 
 --- Adds planes with what is shown there: an object, a cel or a list of them.
 local function add_planes(planes, name, value, z, scale, lens)
-  for _, cel in ipairs(shown.cels("multiplane: " .. name, value)) do
+  for _, cel in ipairs(native.cels("multiplane: " .. name, value)) do
     if scale then cel = cel:scale(scale, nil, lens.cx, lens.cy) end
     planes[#planes + 1] = { cel, z = z, place = #planes }
   end

@@ -2,7 +2,6 @@
 local fields = require "celspan.fields"
 local json = require "celspan.json"
 local scenes = require "celspan.scenes"
-local shown = require "celspan.shown"
 
 local shots = {}
 
@@ -32,7 +31,13 @@ end
 --- What a shot shows, a rostrum or a list of exposures. If frames are marked, the rostra have the
 --- name of the shot.
 function shots.marked(result, shot)
-  return is_marking and shown.each(result, scenes.named, shot.label) or result
+  if not is_marking then return result end
+  if type(result) ~= "table" then return scenes.named(result, shot.label) end
+  local list = {}
+  for i, exposure in ipairs(result) do
+    list[i] = { scenes.named(exposure[1], shot.label), exposure[2] }
+  end
+  return list
 end
 
 --- The film with this number of frames that was cut last; nil: no such film was cut.

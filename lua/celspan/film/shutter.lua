@@ -8,7 +8,6 @@
 -- samples are exposed with equal weights that add up to 1.
 local native = require "celspan.native"
 local fields = require "celspan.fields"
-local shown = require "celspan.shown"
 
 local known = { angle = "number", samples = "number", frame = "function" }
 
@@ -37,7 +36,7 @@ local function shutter(_, settings)
     local exposures = {}
     for k = 1, samples do
       local made = frame(moved(f, (k - 0.5) / samples * angle / 360))
-      for _, exposure in ipairs(shown.list("shutter: the frame function's result", made)) do
+      for _, exposure in ipairs(native.exposures("shutter: the frame function's result", made)) do
         exposures[#exposures + 1] = { exposure[1], exposure[2] * (1 / samples) }
       end
     end

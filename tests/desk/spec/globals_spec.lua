@@ -31,7 +31,7 @@ local END = "\nreturn film { size = { 2, 2 }, frame = function() return {} end }
 
 --- The long form of a text: all names are locals of its first line.
 local function long(text)
-  local list, module_of = own "celspan.names".list()
+  local list, module_of = own "celspan.native".names()
   local values = {}
   for i, name in ipairs(list) do
     values[i] = module_of[name] and ("require %q"):format(module_of[name]) or "celspan." .. name

@@ -43,7 +43,7 @@ elseif entries and #entries > 0 then
   program.fail("output", "%s: the folder is not empty; choose another name", folder)
 end
 
-local names = table.concat((require "celspan.names".list()), '",\n  "')
+local names = table.concat((require "celspan.native".names()), '",\n  "')
 local marks = { NAME = name, ANNOTATIONS = program.annotations(), NAMES = names }
 for path, text in pairs(texts) do
   program.save(folder .. "/" .. path, (program.text(text):gsub("@(%u+)@", marks)))

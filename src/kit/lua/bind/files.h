@@ -4,7 +4,7 @@
  *   characters/hand.lua        picture "palm.png"   -> characters/palm.png, else palm.png
  *
  * A relative name is looked for beside the Lua file of the nearest caller that is not celspan's
- * own, then beside the script, where there is one. Nothing is opened here.
+ * own, then beside the script, where there is one. To find a file opens nothing.
  */
 #pragma once
 
@@ -21,5 +21,7 @@ const char *cs_files_find_from(lua_State *L, const char *folder, const char *nam
                                const char **tried);
 /* The same, beside the nearest caller's file. */
 const char *cs_files_find(lua_State *L, const char *name, const char **tried);
+/* native.file_text(path, most) -> the text of a file of at most that many bytes | nil, message */
+int cs_file_text(lua_State *L);
 /* Whether a name ends as those of fonts. */
 bool cs_files_is_font(const char *path);

@@ -1,100 +1,192 @@
 #include "lua/bind/names.h"
 
 #include <lauxlib.h>
+#include <stdlib.h>
+#include <string.h>
 
-#include "lua/bind/caller.h"
-#include "lua/bind/host.h"
 #include "lua/bind/require.h"
+#include "lua/bind/suggest.h"
 
-/* Tables in the registry. */
-#define FOUND "celspan.found"
-#define FILES "celspan.files" /* by Lua's name of it: the text of a file, or false */
+/* Functions of celspan that are written in Lua; each is loaded at its first use. And modules whose
+ * names scripts do not use for things of their own: these have no function here. */
+typedef struct known {
+  const char *name, *module, *function;
+} known;
+static const known rows[] = {{"read", "celspan.files", "text"},
+                             {"parameters", "celspan.parameters", "declare"},
+                             {"row", "celspan.layout", "row"},
+                             {"column", "celspan.layout", "column"},
+                             {"grid", "celspan.layout", "grid"},
+                             {"align", "celspan.layout", "align"},
+                             {"around", "celspan.layout", "around"},
+                             {"letters", "celspan.layout", "letters"},
+                             {"fit", "celspan.layout", "fit"},
+                             {"count", "celspan.count", "written"},
+                             {"morph", "celspan.morph", "between"},
+                             {"brush", "celspan.brush", "line"},
+                             {"echo", "celspan.echo", "trail"},
+                             {"timecode", "celspan.count", "timecode"},
+                             {"footage", "celspan.footage", "open"},
+                             {"trim", "celspan.operators", "trim"},
+                             {"round_corners", "celspan.operators", "round_corners"},
+                             {"zigzag", "celspan.operators", "zigzag"},
+                             {"pucker", "celspan.operators", "pucker"},
+                             {"twist", "celspan.operators", "twist"},
+                             {"offset", "celspan.operators", "offset"},
+                             {"repeater", "celspan.repeater", "copies"},
+                             {"star", "celspan.star", "outline"},
+                             {"merge", "celspan.merge", "merged"},
+                             {"composite", "celspan.composite", "of"},
+                             {"dissolve", "celspan.dissolve", "by_chance"},
+                             {"chart", "celspan.chart", NULL},
+                             {"color", "celspan.colour", NULL},
+                             {"colour", "celspan.colour", NULL},
+                             {"cut", "celspan.cut", NULL},
+                             {"ease", "celspan.ease", NULL},
+                             {"keys", "celspan.keys", NULL},
+                             {"lips", "celspan.lips", NULL},
+                             {"motion", "celspan.motion", NULL},
+                             {"multiplane", "celspan.multiplane", NULL},
+                             {"particles", "celspan.particles", NULL},
+                             {"puppet", "celspan.puppet", NULL},
+                             {"shutter", "celspan.shutter", NULL},
+                             {"svg", "celspan.svg", NULL},
+                             {"typewriter", "celspan.typewriter", NULL}};
 
-/* Pushes a function of the module. */
-static void push_function(lua_State *L, const char *name) {
-  cs_require_module(L, "celspan.names");
-  lua_getfield(L, -1, name);
-  lua_remove(L, -2);
+#define ROWS (sizeof rows / sizeof *rows)
+
+static const known *find_row(const char *name) {
+  for (size_t i = 0; i < ROWS; i++)
+    if (rows[i].name[0] == name[0] && strcmp(rows[i].name, name) == 0)
+      return &rows[i];
+  return NULL;
 }
 
-void cs_names_note(lua_State *L, const char *source, const char *text) {
-  int top = lua_gettop(L);
-  luaL_checkstack(L, 8, "files");
-  luaL_getsubtable(L, LUA_REGISTRYINDEX, FILES);
-  if (text)
-    lua_pushstring(L, text);
+/* ---------------------------------------------------------------- values */
+
+bool cs_names_push_written(lua_State *L, int module, const char *name) {
+  const known *row = find_row(name);
+  if (!row || !row->function)
+    return false;
+  cs_require_module(L, row->module);
+  lua_getfield(L, -1, row->function);
+  lua_remove(L, -2);
+  lua_pushvalue(L, -1);
+  lua_setfield(L, module, name);
+  return true;
+}
+
+/* Pushes what the table of a module has by this name, which may be nil. */
+static bool push_field(lua_State *L, int module, const char *name) {
+  lua_pushstring(L, name[0] == '_' ? "" : name);
+  return lua_rawget(L, module) != LUA_TNIL;
+}
+
+bool cs_names_push(lua_State *L, const char *name) {
+  const known *row = find_row(name);
+  bool is_module = row && !row->function;
+  int place = lua_gettop(L) + 1;
+  if (is_module)
+    cs_require_module(L, row->module);
   else
-    lua_pushboolean(L, false);
-  lua_setfield(L, -2, source);
-  luaL_getsubtable(L, LUA_REGISTRYINDEX, FOUND);
-  for (lua_pushnil(L); lua_next(L, -2);) {
-    lua_pushvalue(L, -2);
-    lua_pushnil(L);
-    lua_rawset(L, -5);
-    lua_pop(L, 1);
+    cs_require_public(L, "celspan");
+  if (is_module || strcmp(name, "celspan") == 0)
+    return true;
+  bool is_there = push_field(L, place, name) || cs_names_push_written(L, place, name);
+  if (is_there)
+    lua_replace(L, place);
+  lua_settop(L, is_there ? place : place - 1);
+  return is_there;
+}
+
+bool cs_names_has(lua_State *L, int module, const char *name) {
+  bool is_there = push_field(L, module, name) || find_row(name);
+  lua_pop(L, 1);
+  return is_there;
+}
+
+/* ---------------------------------------------------------------- lists */
+
+/* Lists of names have room for CS_NAMES_MOST. */
+
+static size_t add_rows(const char **names, size_t count, bool are_modules) {
+  for (size_t i = 0; i < ROWS; i++)
+    if (are_modules == !rows[i].function)
+      names[count++] = rows[i].name;
+  return count;
+}
+
+/* Adds the names in a table, which keeps them alive. */
+static size_t add_keys(lua_State *L, int table, const char **names, size_t count) {
+  lua_pushnil(L);
+  for (; count < CS_NAMES_MOST && lua_next(L, table); lua_pop(L, 1))
+    if (lua_type(L, -2) == LUA_TSTRING)
+      names[count++] = lua_tostring(L, -2);
+  return count;
+}
+
+static int compare(const void *a, const void *b) {
+  return strcmp(*(const char *const *)a, *(const char *const *)b);
+}
+
+size_t cs_names_list(lua_State *L, int module, const char **out) {
+  size_t count = add_keys(L, module, out, add_rows(out, 0, false));
+  qsort(out, count, sizeof *out, compare);
+  return count;
+}
+
+int cs_names_all(lua_State *L) {
+  const char *names[CS_NAMES_MOST];
+  lua_Integer listed = 0;
+  lua_settop(L, 0);
+  cs_require_public(L, "celspan");
+  size_t count = add_keys(L, 1, names, add_rows(names, add_rows(names, 0, false), true));
+  qsort(names, count, sizeof *names, compare);
+  lua_createtable(L, (int)count, 0);
+  lua_newtable(L);
+  for (size_t i = 0; i < count; i++) {
+    const known *row = find_row(names[i]);
+    if (names[i][0] == '_' || (i > 0 && strcmp(names[i], names[i - 1]) == 0))
+      continue;
+    lua_pushstring(L, names[i]);
+    lua_rawseti(L, 2, ++listed);
+    lua_pushstring(L, row && !row->function ? row->module : NULL);
+    lua_setfield(L, 3, names[i]);
   }
-  lua_settop(L, top);
+  return 2;
+}
+
+/* ---------------------------------------------------------------- messages */
+
+/* name -> celspan[name] */
+static int read_name(lua_State *L) {
+  cs_require_public(L, "celspan");
+  lua_insert(L, 1);
+  lua_gettable(L, 1);
+  return 1;
+}
+
+/* Pushes the end of celspan's own message about the name, "; did you mean ..."; NULL: it has none.
+ */
+static const char *push_own_hint(lua_State *L, const char *name) {
+  lua_pushcfunction(L, read_name);
+  lua_pushstring(L, name);
+  bool is_refused = lua_pcall(L, 1, 1, 0) != LUA_OK;
+  const char *message = is_refused ? lua_tostring(L, -1) : NULL;
+  const char *own = message ? strstr(message, "celspan has no '") : NULL;
+  return own ? strchr(own, ';') : NULL;
 }
 
 const char *cs_names_push_hint(lua_State *L, const char *name) {
-  if (!cs_require_is_loaded(L, "celspan.names"))
-    return lua_pushliteral(L, "");
-  push_function(L, "hint");
-  lua_pushstring(L, name);
+  const char *names[CS_NAMES_MOST];
+  if (lua_getfield(L, LUA_REGISTRYINDEX, CS_NAMES_FOUND) == LUA_TNIL)
+    return "";
+  const char *hint = push_own_hint(L, name);
+  if (hint)
+    return hint;
   lua_pushglobaltable(L);
-  lua_call(L, 2, 1);
-  return lua_tostring(L, -1);
-}
-
-/* ---------------------------------------------------------------- globals */
-
-/* __index of the table of found names. upvalues: the names without a value, and the function for
- * them. */
-static int find(lua_State *L) {
-  lua_CFunction otherwise = lua_tocfunction(L, lua_upvalueindex(2));
-  lua_Debug reader;
-  lua_settop(L, 2);
-  lua_pushvalue(L, 2);
-  if (lua_rawget(L, lua_upvalueindex(1)) == LUA_TNIL && lua_type(L, 2) == LUA_TSTRING) {
-    push_function(L, "find");
-    lua_pushvalue(L, 1);
-    if (!cs_host_confines(L)) { /* Lua's own require does not note its files */
-      lua_pushnil(L);
-      lua_replace(L, -2);
-    }
-    lua_pushvalue(L, lua_upvalueindex(1));
-    lua_pushvalue(L, 2);
-    lua_pushstring(L, cs_caller_find(L, &reader) ? reader.source : "");
-    luaL_getsubtable(L, LUA_REGISTRYINDEX, FILES);
-    lua_call(L, 5, 1);
-    if (!lua_isnil(L, -1))
-      return 1;
-  }
-  lua_settop(L, 2);
-  return otherwise ? otherwise(L) : 0;
-}
-
-void cs_names_push_found(lua_State *L, lua_CFunction otherwise) {
-  luaL_getsubtable(L, LUA_REGISTRYINDEX, FOUND);
-  lua_createtable(L, 0, 1);
-  lua_newtable(L);
-  if (otherwise)
-    lua_pushcfunction(L, otherwise);
-  else
-    lua_pushnil(L);
-  lua_pushcclosure(L, find, 2);
-  lua_setfield(L, -2, "__index");
-  lua_setmetatable(L, -2);
-}
-
-void cs_names_open(lua_State *L) {
-  int top = lua_gettop(L);
-  lua_pushglobaltable(L);
-  if (!lua_getmetatable(L, -1)) {
-    lua_createtable(L, 0, 1);
-    cs_names_push_found(L, NULL);
-    lua_setfield(L, -2, "__index");
-    lua_setmetatable(L, -2);
-  }
-  lua_settop(L, top);
+  size_t count = add_keys(L, lua_gettop(L), names, add_rows(names, 0, true));
+  qsort(names, count, sizeof *names, compare);
+  const char *nearest = cs_suggest_name(name, names, count);
+  return nearest ? lua_pushfstring(L, "; did you mean '%s'?", nearest) : "";
 }

@@ -1,22 +1,33 @@
-/* celspan's names without a prefix, which lua/celspan/base/names.lua finds: a global without a
- * value is looked up in celspan and its modules, except in a file that assigns it.
+/* The names of celspan that scripts may write without a prefix, and its functions in Lua.
  *
- *   globals --__index--> names that were found --__index--> celspan.names
- *
- * INVARIANT: the globals do not change. A name that some file assigns is not kept as found, because
- * it depends on the file that reads it.
+ *   circle    celspan.circle
+ *   star      celspan.star, which is written in Lua and loaded when it is read
+ *   ease      the module celspan.ease
  */
 #pragma once
 
 #include <lua.h>
+#include <stdbool.h>
+#include <stddef.h>
 
-/* Gives the globals of the state these names, unless they have a metatable already. Raises. */
-void cs_names_open(lua_State *L);
-/* Pushes the table of found names, for the __index of globals. otherwise: the __index of a name
- * without a value, which uses argument 2 alone; NULL: none. */
-void cs_names_push_found(lua_State *L, lua_CFunction otherwise);
-/* Notes that a file was loaded. source: Lua's name of it. text: NULL: that of the file. What it
- * assigns is found when it is needed. */
-void cs_names_note(lua_State *L, const char *source, const char *text);
-/* Pushes the end of a message about a global without a value: "; did you mean 'circle'?", or "". */
+#define CS_NAMES_MOST 512
+/* In the registry, if globals have celspan's names (globals.h): those that were found. */
+#define CS_NAMES_FOUND "celspan.found"
+
+/* Pushes a function of celspan that is written in Lua, and adds it to the module, at an
+ * absolute index. If there is none of that name, returns false and pushes nothing. */
+bool cs_names_push_written(lua_State *L, int module, const char *name);
+/* Pushes what a name stands for; if celspan does not have it, returns false and pushes nothing. */
+bool cs_names_push(lua_State *L, const char *name);
+/* Whether cs_names_push knows the name. module: the absolute index of the module celspan. */
+bool cs_names_has(lua_State *L, int module, const char *name);
+/* The names in the module at an absolute index, sorted; the module keeps them alive. out: has room
+ * for CS_NAMES_MOST. */
+size_t cs_names_list(lua_State *L, int module, const char **out);
+/* native.names(): all names, sorted, and for those of modules the names by which `require` finds
+ * them. */
+int cs_names_all(lua_State *L);
+/* The end of a message about a global without a value: "; did you mean 'circle'?"; "" if
+ * globals do not have celspan's names. What is pushed
+ * keeps it alive. */
 const char *cs_names_push_hint(lua_State *L, const char *name);

@@ -11,9 +11,9 @@
 #include "celspan/lua.h"
 #include "inside/files.h"
 #include "lua/bind/caller.h"
+#include "lua/bind/globals.h"
 #include "lua/bind/host.h"
 #include "lua/bind/lua_error.h"
-#include "lua/bind/names.h"
 #include "lua/bind/userdata.h"
 #include "lua/module/artwork.h"
 #include "lua/module/parameters.h"
@@ -119,24 +119,11 @@ static int refuse_file(lua_State *L, const char *path) {
                     path, path);
 }
 
-/* Loads a text in the same way as luaL_loadfilex: without a byte-order mark and without a first
- * line that begins with #. */
-static int load_text(lua_State *L, const char *text, size_t size) {
-  static const char mark[] = "\xEF\xBB\xBF";
-  const char *end = text + size;
-  if (size >= strlen(mark) && memcmp(text, mark, strlen(mark)) == 0)
-    text += strlen(mark);
-  if (text < end && *text == '#') {
-    const char *line = memchr(text, '\n', (size_t)(end - text));
-    text = line ? line : end; /* the lines keep their numbers */
-  }
-  return luaL_loadbufferx(L, text, (size_t)(end - text), "@-", "t");
-}
-
 /* Pushes the script as a function, or a message. Returns the outcome of luaL_loadfilex. */
 static int load(lua_State *L, call *c) {
+  size_t skipped = c->text ? cs_globals_skipped(c->text, c->size) : 0;
   if (c->text)
-    return load_text(L, c->text, c->size);
+    return luaL_loadbufferx(L, c->text + skipped, c->size - skipped, "@-", "t");
   if (!cs_lua_script_accepts(c->path))
     return refuse_file(L, c->path);
   int outcome = luaL_loadfilex(L, c->path, "t");
@@ -167,14 +154,14 @@ static int run(lua_State *L) {
     set_search_path(L, folder); /* a sandbox has its own `require` */
   if (!c->text && push_artwork(L, c->path))
     return 1;
-  cs_names_open(L);
+  cs_globals_open(L);
   int outcome = load(L, c);
   if (outcome == LUA_ERRSYNTAX && cs_lua_error_position(lua_tostring(L, -1)) == 0)
     return luaL_error(L, "%s: %s", c->path, lua_tostring(L, -1)); /* a compiled chunk */
   if (outcome != LUA_OK)
     return lua_error(L);
   lua_pushfstring(L, "@%s", c->path);
-  cs_names_note(L, lua_tostring(L, -1), c->text);
+  cs_globals_note(L, lua_tostring(L, -1), c->text);
   lua_pop(L, 1);
   luaL_checkstack(L, c->argument_count + 4, "too many arguments");
   for (int i = 0; i < c->argument_count; i++)

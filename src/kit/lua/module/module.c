@@ -1,6 +1,5 @@
 /* luaopen_celspan: the module table. */
 #include <lauxlib.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "celspan/lua.h"
@@ -9,6 +8,7 @@
 #include "lua/bind/construct.h"
 #include "lua/bind/files.h"
 #include "lua/bind/form.h"
+#include "lua/bind/globals.h"
 #include "lua/bind/host.h"
 #include "lua/bind/names.h"
 #include "lua/bind/require.h"
@@ -20,8 +20,7 @@
 #include "lua/nouns/nouns.h"
 #include "lua/nouns/placed.h"
 #include "lua/nouns/random.h"
-
-#define MOST_NAMES 512
+#include "lua/nouns/shown.h"
 
 /* native.find(name): the path of a file; and if the file does not exist there, the other place that
  * was searched. */
@@ -141,47 +140,9 @@ static int movie(lua_State *L) { return call_program(L, CS_NATIVE_MOVIE, "movies
 
 static int is_movie(lua_State *L) { return call_program(L, CS_NATIVE_IS_MOVIE, "movies"); }
 
-static int own(lua_State *L);
-
-/* native.refusal(text): why Lua does not compile the text, or nil. */
-static int refusal(lua_State *L) {
-  size_t size;
-  const char *text = luaL_checklstring(L, 1, &size);
-  return luaL_loadbufferx(L, text, size, "=", "t") != LUA_OK;
-}
-
-/* native.assignable(text): the words that a text may assign, as keys: they are before a comma, a
- * sign "=" or a comment, or after "function". */
-static int assignable(lua_State *L) {
-  static const char word[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_0123456789";
-  size_t size;
-  const char *at = luaL_checklstring(L, 1, &size), *end = at + size;
-  bool is_named = false;
-  lua_newtable(L);
-  while (at < end) {
-    const size_t length = strspn(at, word);
-    const char *next = at + length + strspn(at + length, " \t\r\n");
-    if (length > 0 && (is_named || strchr(",=-", *next))) {
-      lua_pushlstring(L, at, length);
-      lua_pushboolean(L, true);
-      lua_rawset(L, -3);
-    }
-    is_named = length == 8 && memcmp(at, "function", length) == 0;
-    at = length > 0 ? next : at + 1;
-  }
-  return 1;
-}
-
-/* native.caller(): Lua's name of the file of the nearest caller that does not belong to celspan. */
-static int caller(lua_State *L) {
-  lua_Debug info;
-  lua_pushstring(L, cs_caller_find(L, &info) ? info.source : "");
-  return 1;
-}
-
 /* native.open_names(): gives the globals celspan's names, as in a script. */
 static int open_names(lua_State *L) {
-  cs_names_open(L);
+  cs_globals_open(L);
   return 0;
 }
 
@@ -189,12 +150,11 @@ static const luaL_Reg native_functions[] = {{"find", find},
                                             {"nearest", nearest},
                                             {"synonym", synonym},
                                             {"hex", hex},
-                                            {"own", own},
-                                            {"refusal", refusal},
-                                            {"assignable", assignable},
-                                            {"caller", caller},
+                                            {"names", cs_names_all},
+                                            {"assigned", cs_globals_assigned},
                                             {"open_names", open_names},
-                                            {"cel_of", cs_nouns_cel_of},
+                                            {"exposures", cs_shown_exposures},
+                                            {"cels", cs_shown_cels},
                                             {"as_letter", cs_nouns_as_letter},
                                             {"nouns", cs_nouns_push},
                                             {"source", cs_embedded_source},
@@ -278,88 +238,6 @@ void cs_native_open(lua_State *L) {
   cs_require_give(L, native);
 }
 
-static int compare(const void *a, const void *b) {
-  return strcmp(*(const char *const *)a, *(const char *const *)b);
-}
-
-/* Functions of celspan that are written in Lua; each is loaded at its first use. */
-static const struct {
-  const char *name, *module, *function;
-} written_in_lua[] = {{"read", "celspan.files", "text"},
-                      {"parameters", "celspan.parameters", "declare"},
-                      {"row", "celspan.layout", "row"},
-                      {"column", "celspan.layout", "column"},
-                      {"grid", "celspan.layout", "grid"},
-                      {"align", "celspan.layout", "align"},
-                      {"around", "celspan.layout", "around"},
-                      {"letters", "celspan.layout", "letters"},
-                      {"fit", "celspan.layout", "fit"},
-                      {"count", "celspan.count", "written"},
-                      {"morph", "celspan.morph", "between"},
-                      {"brush", "celspan.brush", "line"},
-                      {"echo", "celspan.echo", "trail"},
-                      {"timecode", "celspan.count", "timecode"},
-                      {"footage", "celspan.footage", "open"},
-                      {"trim", "celspan.operators", "trim"},
-                      {"round_corners", "celspan.operators", "round_corners"},
-                      {"zigzag", "celspan.operators", "zigzag"},
-                      {"pucker", "celspan.operators", "pucker"},
-                      {"twist", "celspan.operators", "twist"},
-                      {"offset", "celspan.operators", "offset"},
-                      {"repeater", "celspan.repeater", "copies"},
-                      {"star", "celspan.star", "outline"},
-                      {"merge", "celspan.merge", "merged"},
-                      {"composite", "celspan.composite", "of"},
-                      {"dissolve", "celspan.dissolve", "by_chance"},
-                      {"names", "celspan.names", "of"}};
-
-#define WRITTEN_IN_LUA (sizeof written_in_lua / sizeof *written_in_lua)
-
-/* Pushes the function that is read, and adds it to the module; false: nothing is pushed. */
-static bool push_written(lua_State *L, const char *name) {
-  for (size_t i = 0; i < WRITTEN_IN_LUA; i++)
-    if (strcmp(name, written_in_lua[i].name) == 0) {
-      cs_require_module(L, written_in_lua[i].module);
-      lua_getfield(L, -1, written_in_lua[i].function);
-      lua_pushvalue(L, -1);
-      lua_setfield(L, 1, name);
-      return true;
-    }
-  return false;
-}
-
-/* The names that the module has, sorted; the module keeps them alive. */
-static size_t list_names(lua_State *L, const char **names) {
-  size_t count = 0;
-  for (; count < WRITTEN_IN_LUA; count++)
-    names[count] = written_in_lua[count].name;
-  lua_pushnil(L);
-  for (; count < MOST_NAMES && lua_next(L, 1); lua_pop(L, 1))
-    if (lua_type(L, -2) == LUA_TSTRING)
-      names[count++] = lua_tostring(L, -2);
-  qsort(names, count, sizeof *names, compare);
-  return count;
-}
-
-/* native.own(name): what the module celspan has by this name, or nil; without a name, a table with
- * all its names as keys. */
-static int own(lua_State *L) {
-  const char *names[MOST_NAMES];
-  lua_settop(L, 1);
-  cs_require_public(L, "celspan");
-  lua_insert(L, 1);
-  lua_pushvalue(L, 2);
-  if (!lua_isnil(L, 2))
-    return lua_rawget(L, 1) != LUA_TNIL || push_written(L, lua_tostring(L, 2));
-  size_t count = list_names(L, names);
-  lua_createtable(L, (int)count, 0);
-  for (size_t i = 0; i < count; i++) {
-    lua_pushboolean(L, true);
-    lua_setfield(L, -2, names[i]);
-  }
-  return 1;
-}
-
 /* Pushes what is written here for a node of other compositors, or nil. */
 static const char *push_theirs(lua_State *L, const char *name) {
   cs_require_module(L, "celspan.composite");
@@ -373,8 +251,8 @@ static const char *push_theirs(lua_State *L, const char *name) {
 static int read_missing(lua_State *L) {
   if (lua_type(L, 2) != LUA_TSTRING)
     return 0;
-  const char *names[MOST_NAMES], *name = lua_tostring(L, 2);
-  if (push_written(L, name))
+  const char *names[CS_NAMES_MOST], *name = lua_tostring(L, 2);
+  if (cs_names_push_written(L, 1, name))
     return 1;
   if (cs_embedded_has(name))
     return cs_caller_error(L, "celspan has no '%s'; it is a module: require \"celspan.%s\"", name,
@@ -382,7 +260,7 @@ static int read_missing(lua_State *L) {
   const char *instead = push_theirs(L, name);
   if (instead)
     return cs_caller_error(L, "celspan has no '%s'; write %s", name, instead);
-  size_t count = list_names(L, names);
+  size_t count = cs_names_list(L, 1, names);
   const char *nearest = cs_suggest_name(name, names, count);
   if (nearest)
     return cs_caller_error(L, "celspan has no '%s'; did you mean '%s'?", name, nearest);
@@ -410,6 +288,7 @@ int luaopen_celspan(lua_State *L) {
                                        {"probe", cs_spans_probe},
                                        {"plane", cs_plane_make},
                                        {"plane_read", cs_plane_open_file},
+                                       {"names", cs_globals_beside},
                                        {NULL, NULL}};
   luaL_checkversion(L);
   cs_host_open(L, NULL);

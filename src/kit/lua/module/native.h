@@ -34,8 +34,6 @@ void cs_beside_open(lua_State *L);
 
 /* ---------------------------------------------------------------- files */
 
-/* (path, most) -> the text of a file of at most that many bytes | nil, message */
-int cs_file_text(lua_State *L);
 /* (text, null) -> the value of a JSON text, in which `null` stands for null | nil, message */
 int cs_json_text_read(lua_State *L);
 /* (path) -> the names of the files of a folder | nil, message */

@@ -12,7 +12,7 @@
 #include "lua/bind/put.h"
 #include "lua/bind/userdata.h"
 #include "lua/module/native.h"
-#include "lua/nouns/options.h"
+#include "lua/nouns/shown.h"
 
 enum { PLACE_SIZE = 64, PATH_SIZE = 512 };
 
@@ -275,7 +275,7 @@ int cs_parts_list(lua_State *L) {
                .fade = 1,
                .width = luaL_optnumber(L, 2, 0),
                .height = luaL_optnumber(L, 3, 0)};
-  cs_options_exposures(L, 1, "parts: argument 1", &desc);
+  cs_shown_read(L, 1, "parts: argument 1", &desc);
   lua_pushnil(L);
   to.over = lua_gettop(L);
   lua_newtable(L);

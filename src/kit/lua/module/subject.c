@@ -3,6 +3,7 @@
 #include "inside/context.h"
 #include "lua/bind/userdata.h"
 #include "lua/nouns/lua_film.h"
+#include "lua/nouns/shown.h"
 
 #define FRAME "celspan.subject"
 
@@ -49,6 +50,6 @@ celspan_status cs_subject_read(lua_State *L, const cs_noun *noun, cs_options *op
     cs_form_fail(&options->form, "field 'frame' is for films, argument 1 is %s",
                  cs_userdata_type(L, 1));
   const char *name = lua_pushfstring(L, "%s: argument 1", noun->name);
-  cs_options_exposures(L, 1, name, &options->desc);
+  cs_shown_read(L, 1, name, &options->desc);
   return CELSPAN_OK;
 }

@@ -17,8 +17,8 @@
 #include "lua/bind/require.h"
 #include "lua/bind/take.h"
 #include "lua/nouns/nouns.h"
-#include "lua/nouns/options.h"
 #include "lua/nouns/random.h"
+#include "lua/nouns/shown.h"
 #include "lua/nouns/sounds.h"
 #include "lua/nouns/space.h"
 
@@ -381,20 +381,37 @@ static void push_frame(lua_State *L, const cs_film_info *film, int64_t number) {
 
 /* ---------------------------------------------------------------- frames */
 
-/* Replaces the exposures on top of the stack by those to which celspan's module of this name adds
- * what the field of the film says, if the film has it. */
+/* Replaces the rostrum on top of the stack by what a function makes of it for the frame. */
+static void change(lua_State *L, int function) {
+  lua_pushvalue(L, function);
+  lua_insert(L, -2);
+  lua_pushvalue(L, 3);
+  lua_getfield(L, 2, "number");
+  lua_call(L, 3, 1);
+}
+
+/* Adds to each rostrum on top of the stack, in a list of exposures or alone, what celspan's module
+ * of this name makes of the field of the film, if the film has it. */
 static void add(lua_State *L, const char *field, const char *module) {
-  int exposures = lua_gettop(L);
+  int shown = lua_gettop(L), function = shown + 1;
   if (lua_getfield(L, 3, field) != LUA_TNIL) {
     cs_require_module(L, module);
-    lua_getfield(L, -1, "of_film");
-    lua_pushvalue(L, exposures);
-    lua_pushvalue(L, 3);
-    lua_getfield(L, 2, "number");
-    lua_call(L, 3, 1);
-    lua_replace(L, exposures);
+    lua_getfield(L, -1, "of_rostrum");
+    lua_replace(L, function);
+    if (lua_istable(L, shown)) {
+      for (lua_Integer i = 1; lua_rawgeti(L, shown, i) != LUA_TNIL; i++) {
+        lua_rawgeti(L, -1, 1);
+        change(L, function);
+        lua_rawseti(L, -2, 1);
+        lua_pop(L, 1);
+      }
+    } else {
+      lua_pushvalue(L, shown);
+      change(L, function);
+      lua_replace(L, shown);
+    }
   }
-  lua_settop(L, exposures);
+  lua_settop(L, shown);
 }
 
 /* frame function, f, film -> exposures */
@@ -407,7 +424,7 @@ static int call_frame(lua_State *L) {
   lua_pop(L, 1);
   int result = lua_gettop(L);
   celspan_frame_desc desc;
-  cs_options_exposures(L, result, "the frame function's result", &desc);
+  cs_shown_read(L, result, "the frame function's result", &desc);
   lua_settop(L, result);
   add(L, "background", "celspan.background");
   add(L, "grain", "celspan.grain");
@@ -455,7 +472,7 @@ static int build_frame(lua_State *L) {
   request *r = lua_touserdata(L, 2);
   cs_lua_film_push_frame(L, 1, r->number);
   celspan_frame_desc desc;
-  cs_options_exposures(L, -1, "the frame function's result", &desc);
+  cs_shown_read(L, -1, "the frame function's result", &desc);
   cs_film_info film;
   cs_lua_film_read(L, 1, &film);
   r->status = /* the last step: a later error of Lua would lose the exposures */

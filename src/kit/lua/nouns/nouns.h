@@ -91,7 +91,7 @@ int cs_nouns_matte(lua_State *L);
 int cs_nouns_glyphs(lua_State *L);
 /* native.as_letter(table): the table as a letter, which says where its methods are. */
 int cs_nouns_as_letter(lua_State *L);
-/* native.cel_of(object): a cel with the object or rostrum, with its name and line. */
+/* (object) -> a cel with the object or rostrum, with its name and line. */
 int cs_nouns_cel_of(lua_State *L);
 /* Pushes celspan.clear. */
 void cs_nouns_push_clear(lua_State *L);

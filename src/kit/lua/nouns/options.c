@@ -4,10 +4,6 @@
 #include <string.h>
 
 #include "inside/scene.h"
-#include "lua/bind/caller.h"
-#include "lua/bind/list.h"
-#include "lua/bind/numbers.h"
-#include "lua/bind/require.h"
 #include "lua/bind/userdata.h"
 
 /* ---------------------------------------------------------------- antialiasing */
@@ -247,52 +243,4 @@ void cs_options_use_film(cs_options *options, const cs_film_info *film) {
     desc->film_width = film->width;
     desc->film_height = film->height;
   }
-}
-
-/* ---------------------------------------------------------------- exposures */
-
-/* Exposure i of the list at index. */
-static celspan_exposure read_exposure(lua_State *L, int list, int i, const char *name) {
-  double weight = 1;
-  const char *subject = lua_pushfstring(L, "exposure %d: its weight", i);
-  lua_rawgeti(L, list, i);
-  if (lua_rawgeti(L, -1, 2) != LUA_TNIL)
-    weight = cs_numbers_check(L, -1, name, subject);
-  lua_rawgeti(L, -2, 1);
-  const cs_userdata *rostrum = lua_touserdata(L, -1);
-  lua_pop(L, 4);
-  return (celspan_exposure){rostrum->handle, weight};
-}
-
-/* Replaces the value at index by a rostrum or by exposures of rostrums, which no callback can
- * change. */
-static void settle(lua_State *L, int index, const char *name) {
-  cs_require_module(L, "celspan.shown");
-  lua_getfield(L, -1, "settled");
-  lua_pushstring(L, name);
-  lua_pushvalue(L, index);
-  lua_call(L, 2, 2);
-  if (lua_isnil(L, -2))
-    cs_caller_error(L, "%s", lua_tostring(L, -1));
-  lua_pop(L, 1);
-  lua_replace(L, index);
-  lua_pop(L, 1);
-}
-
-void cs_options_exposures(lua_State *L, int index, const char *name, celspan_frame_desc *desc) {
-  index = lua_absindex(L, index);
-  if (!cs_userdata_test(L, index, &cs_kind_rostrum))
-    settle(L, index, name);
-  const cs_userdata *rostrum = cs_userdata_test(L, index, &cs_kind_rostrum);
-  size_t count = rostrum ? 1 : (size_t)cs_list_length(L, index);
-  celspan_exposure *exposures = cs_form_scratch(L, count, sizeof *exposures);
-  if (rostrum)
-    exposures[0] = (celspan_exposure){rostrum->handle, 1};
-  if (rostrum)
-    desc->space = exposures[0].rostrum->space;
-  else
-    for (size_t i = 0; i < count; i++)
-      exposures[i] = read_exposure(L, index, (int)i + 1, name);
-  desc->exposures = exposures;
-  desc->exposure_count = count;
 }

@@ -29,7 +29,3 @@ void cs_options_use_film(cs_options *options, const cs_film_info *film);
  * values are scratch memory left on the stack: *filter points to them. */
 bool cs_options_antialias(const cs_form *form, celspan_antialias_mode *mode,
                           const celspan_filter_desc **filter);
-/* Replaces what a frame shows (lua/celspan/film/shown.lua), the value at index, by a rostrum or a
- * list {{rostrum, weight}, ...}, and reads it as the exposures of *desc. They are scratch memory,
- * left on the stack; the rostrums belong to the value. name: for messages. */
-void cs_options_exposures(lua_State *L, int index, const char *name, celspan_frame_desc *desc);

@@ -2,7 +2,7 @@
 #include <lauxlib.h>
 #include <string.h>
 
-#include "lua/bind/names.h"
+#include "lua/bind/globals.h"
 #include "lua/sandbox/guard.h"
 #include "lua/sandbox/library.h"
 
@@ -65,7 +65,7 @@ static int load(lua_State *L) {
       lua_pushfstring(L, "load: mode '%s': the sandbox loads only text ('t')", mode);
     return push_failure(L);
   }
-  cs_names_note(L, name, text);
+  cs_globals_note(L, name, text);
   if (has_globals) {
     lua_pushvalue(L, 4);
     lua_setupvalue(L, -2, 1); /* a compiled text has one upvalue: _ENV */

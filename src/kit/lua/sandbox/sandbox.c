@@ -10,8 +10,8 @@
 #include "inside/scene.h"
 #include "lua/bind/caller.h"
 #include "lua/bind/files.h"
+#include "lua/bind/globals.h"
 #include "lua/bind/lua_error.h"
-#include "lua/bind/names.h"
 #include "lua/bind/require.h"
 #include "lua/sandbox/library.h"
 
@@ -272,7 +272,7 @@ static void add_absent(lua_State *L) {
   lua_getfield(L, -1, "setmetatable");
   lua_pushvalue(L, -2);
   lua_createtable(L, 0, 1);
-  cs_names_push_found(L, tell_absent);
+  cs_globals_push_found(L, tell_absent);
   lua_setfield(L, -2, "__index");
   lua_call(L, 2, 0);
 }

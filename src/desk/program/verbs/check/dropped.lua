@@ -9,8 +9,8 @@
 local program = ...
 local files = require "celspan.files"
 local manual = require "celspan.manual"
+local native = require "celspan.native"
 local ordered = require "celspan.ordered"
-local own_names = require "celspan.names"
 local tokens = program.part "tokens.lua"
 
 --- Values that are immutable: of these classes and of those that extend them.
@@ -221,7 +221,7 @@ end
 --- Names and the types of their values: names of celspan, then the types that can be found, because
 --- names depend on others; then names that also have an unknown value are left out.
 local function types_of(list)
-  local types, bindings, known, module_of = {}, bindings_of(list), own_names.list()
+  local types, bindings, known, module_of = {}, bindings_of(list), native.names()
   for _, name in ipairs(known) do
     if not bindings[name] then
       types[name] = { module = module_of[name], maker = not module_of[name] and "celspan." .. name }
@@ -280,7 +280,7 @@ end
 
 --- Adds a sentence for each global of a text that hides a name of celspan.
 local function add_hiding(sentences, path, text)
-  local lines = own_names.assigned(text)
+  local lines = native.assigned(text)
   for _, name in ipairs(ordered.names(lines)) do
     sentences[#sentences + 1] = ("%s:%d: the global '%s' hides celspan's %s in this file: make it "
       .. "local, or give it another name"):format(path, lines[name], name, name)

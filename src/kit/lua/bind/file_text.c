@@ -5,9 +5,9 @@
 #include <sys/stat.h>
 
 #include "inside/files.h"
+#include "lua/bind/files.h"
 #include "lua/bind/host.h"
 #include "lua/bind/userdata.h"
-#include "lua/module/native.h"
 
 enum { PIECE = 65536 };
 
@@ -39,15 +39,16 @@ static int fail_length(lua_State *L, const char *path, lua_Integer most) {
 static int read_text(lua_State *L, int file, const char *path, size_t size, lua_Integer most) {
   luaL_Buffer text;
   ssize_t got;
+  size_t piece = size > 0 ? size + 1 : PIECE; /* nothing is left after a file of that size */
   lua_Integer count = 0;
-  luaL_buffinitsize(L, &text, size + PIECE);
+  luaL_buffinitsize(L, &text, piece);
   do {
-    got = cs_open_read_at(file, luaL_prepbuffsize(&text, PIECE), PIECE, (off_t)count);
+    got = cs_open_read_at(file, luaL_prepbuffsize(&text, piece), piece, (off_t)count);
     if (got < 0)
       return fail_text(L, path, strerror(errno));
     luaL_addsize(&text, (size_t)got);
     count += got;
-  } while (got == PIECE && count <= most);
+  } while ((size_t)got == piece && count <= most);
   if (count > most)
     return fail_length(L, path, most);
   luaL_pushresult(&text);
