@@ -61,8 +61,8 @@ static void add_candidates(lua_State *L, const char *at, const char *end) {
   lua_pop(L, 1);
 }
 
-/* Compiles a text in which the names of a table are constants. Pushes why Lua refuses it, or the
- * function. */
+/* Compiles a text in which the names of a table are constants. Returns why Lua refuses it, which is
+ * pushed, or NULL. */
 static const char *push_refusal(lua_State *L, int names, const char *text, size_t size) {
   int first = lua_gettop(L) + 1;
   for (lua_pushnil(L); lua_next(L, names); lua_pop(L, 1)) {
@@ -70,6 +70,8 @@ static const char *push_refusal(lua_State *L, int names, const char *text, size_
     lua_pushfstring(L, "local %s <const> = nil ", lua_tostring(L, -2));
     lua_insert(L, first);
   }
+  if (lua_gettop(L) < first)
+    return NULL;
   lua_pushliteral(L, "return function(...) ");
   lua_pushlstring(L, text, size);
   lua_pushliteral(L, "\nend");
@@ -104,14 +106,6 @@ static bool find_assigned(lua_State *L, int names, int found, const char *text, 
   return at != NULL;
 }
 
-static bool is_empty(lua_State *L, int table) {
-  lua_pushnil(L);
-  if (!lua_next(L, table))
-    return true;
-  lua_pop(L, 2);
-  return false;
-}
-
 /* Adds the names that the text at index assigns to the table at `found`. */
 static void add_assigned(lua_State *L, int index, int found) {
   size_t size;
@@ -121,7 +115,7 @@ static void add_assigned(lua_State *L, int index, int found) {
   int names = lua_gettop(L);
   cs_host_charge(L, size / BYTES_A_STEP);
   add_candidates(L, text, text + size);
-  while (!is_empty(L, names) && find_assigned(L, names, found, text + skipped, size - skipped))
+  while (find_assigned(L, names, found, text + skipped, size - skipped))
     cs_host_charge(L, size / BYTES_A_STEP);
   lua_pop(L, 1);
 }
@@ -216,13 +210,6 @@ static void push_assigned(lua_State *L, const char *source) {
 
 /* ---------------------------------------------------------------- globals */
 
-static bool is_shared(lua_State *L, const char *name) {
-  luaL_getsubtable(L, LUA_REGISTRYINDEX, SHARED);
-  bool found = lua_getfield(L, -1, name) != LUA_TNIL;
-  lua_pop(L, 2);
-  return found;
-}
-
 /* Pushes what a global without a value is in the file that reads it. If it is the same in all
  * files, it is kept in the table at 1, or a name that nobody has in upvalue 1. Without a sandbox
  * Lua's own require does not note its files. */
@@ -235,10 +222,14 @@ static bool push_value(lua_State *L, const char *name) {
   if (!is_there) {
     lua_pushboolean(L, true);
     lua_setfield(L, lua_upvalueindex(1), name);
-  } else if (cs_host_confines(L) && !is_shared(L, name)) {
-    lua_pushvalue(L, 2);
+  } else if (cs_host_confines(L)) {
+    luaL_getsubtable(L, LUA_REGISTRYINDEX, SHARED);
     lua_pushvalue(L, -2);
-    lua_rawset(L, 1);
+    if (lua_getfield(L, -2, name) == LUA_TNIL) {
+      lua_pushvalue(L, -2);
+      lua_setfield(L, 1, name);
+    }
+    lua_pop(L, 1);
   }
   return is_there;
 }
