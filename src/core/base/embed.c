@@ -1,8 +1,7 @@
-/* Build tool: files as arrays of bytes, each ended by a zero.
+/* Build tool: files as a table of their bytes, each ended by a zero.
  *
- *   embed OUT.c NAME=FILE ...                   an array NAME for each file
- *   embed OUT.c --table HEADER TABLE FILE ...   one table, with the names of the files without
- *                                               folders; HEADER declares cs_built_in and the table
+ *   embed OUT.c HEADER TABLE FILE ...   the names in the table are those of the files without
+ *                                       folders; HEADER declares cs_built_in and the table
  */
 #include <stdbool.h>
 #include <stdio.h>
@@ -41,18 +40,6 @@ static void write_bytes(FILE *out, const char *path) {
   fputs(" 0};\n", out);
 }
 
-static void write_arrays(FILE *out, int count, char **arguments) {
-  for (int i = 0; i < count; i++) {
-    char *path = strchr(arguments[i], '=');
-    if (!path)
-      stop("no name before a =:", arguments[i]);
-    *path++ = 0;
-    fprintf(out, "extern const unsigned char %s[];\nconst unsigned char %s[] = ", arguments[i],
-            arguments[i]);
-    write_bytes(out, path);
-  }
-}
-
 static const char *name_of(const char *path) {
   const char *slash = strrchr(path, '/');
   return slash ? slash + 1 : path;
@@ -72,17 +59,13 @@ static void write_table(FILE *out, const char *header, const char *table, int co
 }
 
 int main(int argument_count, char **arguments) {
-  int is_table = argument_count > 2 && strcmp(arguments[2], "--table") == 0;
-  if (argument_count < (is_table ? 6 : 3))
-    stop("usage:", "embed OUT.c NAME=FILE ... | embed OUT.c --table HEADER TABLE FILE ...");
+  if (argument_count < 5)
+    stop("usage:", "embed OUT.c HEADER TABLE FILE ...");
   FILE *out = fopen(arguments[1], "w");
   if (!out)
     stop("cannot open", arguments[1]);
   fprintf(out, "/* Made by embed.c; do not edit. */\n");
-  if (is_table)
-    write_table(out, arguments[3], arguments[4], argument_count - 5, arguments + 5);
-  else
-    write_arrays(out, argument_count - 2, arguments + 2);
+  write_table(out, arguments[2], arguments[3], argument_count - 4, arguments + 4);
   if (fclose(out) != 0)
     stop("cannot write", arguments[1]);
   return 0;

@@ -197,13 +197,13 @@ static bool is_right(const subject *s, cs_pyramid_tile tile) {
 }
 
 /* The number of wrong or missing tiles. */
-static int count_wrong(const subject *s, const cs_tile_plan *plan) {
+static int count_wrong(const subject *s, const cs_tile_render *render) {
   int wrong = 0;
-  for (size_t i = 0; i < plan->count; i++) {
-    const cs_pyramid_box *box = &plan->jobs[i].tiles;
+  for (size_t i = 0; i < render->job_count; i++) {
+    const cs_pyramid_box *box = &render->jobs[i].tiles;
     for (int32_t y = box->y0; y < box->y1; y++)
       for (int32_t x = box->x0; x < box->x1; x++)
-        wrong += !is_right(s, (cs_pyramid_tile){plan->jobs[i].level, x, y});
+        wrong += !is_right(s, (cs_pyramid_tile){render->jobs[i].level, x, y});
   }
   return wrong;
 }
@@ -222,37 +222,30 @@ static bool tick(void *user) { return user != NULL; }
 /* crop: NULL for the whole frame. *rows: the rows of tiles that were made. */
 static int run(subject *s, const cs_pyramid_box *crop, size_t *rows) {
   celspan_context *context = s->studio.context;
-  celspan_frame_desc cropped = s->frame;
   cs_tile_inputs inputs = {.frame = &s->frame, .file = "", .is_script = true};
   cs_tile_log log = {.descriptor = -1};
   cs_tile_log_state state;
-  cs_tile_plan plan = {.count = 0};
-  if (crop) {
-    cropped.crop_x = crop->x0, cropped.crop_width = crop->x1 - crop->x0;
-    cropped.crop_y = crop->y0, cropped.crop_height = crop->y1 - crop->y0;
-  }
-  cs_tile_plan_desc desc = {&s->pyramid, &cropped, {s->levels[0], s->levels[1]}, NULL};
-  studio_check(&s->studio, cs_tile_plan_make(context, &desc, &plan));
-  studio_check(&s->studio, cs_tile_log_find(context, &s->pyramid, &inputs, &log, &state));
-  if (state == CS_TILE_LOG_OTHER)
-    studio_check(&s->studio, cs_tile_log_clear(context, &s->pyramid, &log));
-  studio_check(&s->studio, cs_tile_log_open(context, &s->pyramid, &log));
+  cs_tile_job jobs[32];
   cs_tile_render render = {.context = context,
-                           .frame = &cropped,
+                           .frame = &s->frame,
                            .pyramid = &s->pyramid,
-                           .plan = &plan,
+                           .jobs = jobs,
                            .log = &log,
                            .workers = 1,
                            .draw = draw,
                            .finished = finished,
                            .tick = tick,
                            .user = s};
+  for (int32_t level = s->levels[0]; level <= s->levels[1]; level++)
+    jobs[render.job_count++] = (cs_tile_job){level, cs_pyramid_tiles(&s->pyramid, level, crop)};
+  studio_check(&s->studio, cs_tile_log_find(context, &s->pyramid, &inputs, &log, &state));
+  if (state == CS_TILE_LOG_OTHER)
+    studio_check(&s->studio, cs_tile_log_clear(context, &s->pyramid, &log));
+  studio_check(&s->studio, cs_tile_log_open(context, &s->pyramid, &log));
   *rows = cs_tile_render_row_count(&render);
   studio_check(&s->studio, cs_tile_render_run(&render));
   cs_tile_log_close(context, &log);
-  int wrong = count_wrong(s, &plan);
-  cs_tile_plan_free(context, &plan);
-  return wrong;
+  return count_wrong(s, &render);
 }
 
 /* ---------------------------------------------------------------- one pyramid */

@@ -3,7 +3,7 @@
  *
  *   shown --> a file, pixels
  *         --> spans, counts
- *         --> pyramid, plan, record of an earlier run --> tiles --> page   (writers/tiles)
+ *         --> pyramid, record of an earlier run --> tiles   (writers/tiles)
  */
 #include <stdio.h>
 #include <string.h>
@@ -20,7 +20,6 @@
 #include "program/film/shown.h"
 #include "program/outputs/outputs.h"
 #include "program/outputs/target.h"
-#include "writers/tiles/page.h"
 #include "writers/tiles/tile_render.h"
 
 #define PIXELS_MOST (1 << 26) /* pixels of a picture in memory */
@@ -32,7 +31,6 @@ typedef struct shown {
   cs_still still;           /* open if it is not a film */
   celspan_frame_desc frame; /* the whole frame, under the options */
   cs_pyramid pyramid;       /* its texts are fields of the table in Lua */
-  cs_tile_plan plan;
   cs_tile_log log;
   cs_progress *progress; /* borrowed */
 } shown;
@@ -40,7 +38,6 @@ typedef struct shown {
 static int close_shown(lua_State *L) {
   shown *s = lua_touserdata(L, 1);
   cs_tile_log_close(s->context, &s->log);
-  cs_tile_plan_free(s->context, &s->plan);
   if (s->is_film)
     cs_script_close(&s->script);
   else
@@ -204,6 +201,13 @@ static int pixels(lua_State *L) {
 
 /* ---------------------------------------------------------------- the pyramid */
 
+/* Four whole numbers of the stack, from index on. */
+static cs_pyramid_box box_at(lua_State *L, int index) {
+  return (cs_pyramid_box){
+      (int32_t)luaL_checkinteger(L, index), (int32_t)luaL_checkinteger(L, index + 1),
+      (int32_t)luaL_checkinteger(L, index + 2), (int32_t)luaL_checkinteger(L, index + 3)};
+}
+
 static int32_t number_of(lua_State *L, const char *name) {
   lua_getfield(L, 2, name);
   int32_t number = (int32_t)lua_tointeger(L, -1);
@@ -232,27 +236,21 @@ static int pyramid(lua_State *L) {
   return 2;
 }
 
-/* shown:plan(first, last, most) -> nothing; if these levels have more tiles than `most`: how many,
- * the last level that has any, the last level up to which there is no more than that, or -1, and
- * how many tiles there are then. */
-static int plan(lua_State *L) {
-  shown *s = self(L);
-  const cs_tile_plan_desc desc = {
-      .pyramid = &s->pyramid,
-      .frame = &s->frame,
-      .levels = {(int32_t)luaL_checkinteger(L, 2), (int32_t)luaL_checkinteger(L, 3)},
-      .places = cs_request_text(cs_service_session(L)->request, "--places")};
-  int64_t most = luaL_checkinteger(L, 4), fitting = 0;
-  celspan_status status = cs_tile_plan_make(s->context, &desc, &s->plan);
-  if (status == CELSPAN_BAD_ARGUMENT)
-    cs_service_require(L, cs_report_usage("%s", celspan_context_error(s->context)));
-  cs_service_try(L, status);
-  if (cs_tile_plan_count(&s->plan) <= most)
-    return 0;
-  lua_pushinteger(L, cs_tile_plan_count(&s->plan));
-  lua_pushinteger(L, s->plan.jobs[s->plan.count - 1].level);
-  lua_pushinteger(L, cs_tile_plan_last_within(&desc, most, &fitting));
-  lua_pushinteger(L, fitting);
+/* shown:touched(level, x0, y0, x1, y1) -> the tiles of a level that these pixels of the frame
+ * touch, by default those of --crop: the first column and row, and the ends */
+static int touched(lua_State *L) {
+  const shown *s = self(L);
+  const celspan_frame_desc *frame = &s->frame;
+  cs_pyramid_box box = {frame->crop_x, frame->crop_y, frame->crop_x + frame->crop_width,
+                        frame->crop_y + frame->crop_height};
+  bool is_part = frame->crop_width || !lua_isnoneornil(L, 3);
+  if (!lua_isnoneornil(L, 3))
+    box = box_at(L, 3);
+  box = cs_pyramid_tiles(&s->pyramid, (int32_t)luaL_checkinteger(L, 2), is_part ? &box : NULL);
+  lua_pushinteger(L, box.x0);
+  lua_pushinteger(L, box.y0);
+  lua_pushinteger(L, box.x1);
+  lua_pushinteger(L, box.y1);
   return 4;
 }
 
@@ -321,31 +319,42 @@ static void set_background(const shown *s, float out[4]) {
     cs_space_encode(film, out);
 }
 
-static void code_background(const shown *s, const float background[4], char out[8]) {
+/* Pushes the colour around the tiles, "#rrggbb". */
+static void push_background(lua_State *L, const shown *s, const float background[4]) {
   unsigned char pixel[4];
+  char text[8];
   const celspan_coding coding = {.struct_size = sizeof coding,
                                  .depth = CELSPAN_DEPTH_8,
                                  .transfer = CELSPAN_TRANSFER_SRGB,
                                  .alpha = CELSPAN_ALPHA_STRAIGHT,
                                  .space = s->frame.space};
   cs_pixels_code(&coding, background, pixel);
-  if (background[3] <= 0)
-    snprintf(out, 8, "#14151a");
-  else
-    snprintf(out, 8, "#%02x%02x%02x", pixel[0], pixel[1], pixel[2]);
+  snprintf(text, sizeof text, "#%02x%02x%02x", pixel[0], pixel[1], pixel[2]);
+  lua_pushstring(L, background[3] <= 0 ? "#14151a" : text);
 }
 
-static celspan_status write_page(lua_State *L, const shown *s, const float background[4]) {
-  const char *viewer = cs_request_text(cs_service_session(L)->request, "--viewer");
-  cs_tile_page page = {.pyramid = &s->pyramid,
-                       .log = &s->log,
-                       .plan = &s->plan,
-                       .frame = &s->frame,
-                       .title = luaL_checkstring(L, 2)};
-  code_background(s, background, page.background);
-  if (viewer)
-    CS_TRY(cs_tile_page_copy_viewer(s->context, &s->pyramid, viewer));
-  return cs_tile_page_write(s->context, &page);
+/* Pushes the rows of the record: { { level, row, first column, end of columns }, ... }. */
+static void push_rows(lua_State *L, const cs_tile_log *log) {
+  lua_createtable(L, (int)log->count, 0);
+  for (size_t i = 0; i < log->count; i++) {
+    const cs_tile_row *row = &log->rows[i];
+    cs_push_numbers(L, (const double[]){row->level, row->row, row->first, row->end}, 4);
+    lua_rawseti(L, -2, (lua_Integer)i + 1);
+  }
+}
+
+/* Pushes the jobs of the list that is argument 2: { { level, x0, y0, x1, y1 }, ... }. */
+static cs_tile_job *push_jobs(lua_State *L, size_t count) {
+  cs_tile_job *jobs = lua_newuserdatauv(L, (count + 1) * sizeof *jobs, 0);
+  for (size_t i = 0; i < count; i++) {
+    lua_rawgeti(L, 2, (lua_Integer)i + 1);
+    int top = lua_gettop(L);
+    for (int k = 1; k <= 5; k++)
+      lua_rawgeti(L, top, k);
+    jobs[i] = (cs_tile_job){(int32_t)luaL_checkinteger(L, top + 1), box_at(L, top + 2)};
+    lua_settop(L, top - 1);
+  }
+  return jobs;
 }
 
 static void finished(void *user, cs_tile_row row) {
@@ -361,15 +370,17 @@ static bool tick(void *user) {
   return cs_progress_tick(s->progress, 0);
 }
 
-/* shown:tiles(title): makes the tiles that are missing, and their page -> how many were written,
- * linked to equal ones, left out */
+/* shown:tiles(jobs): makes the tiles that are missing -> how many were written, linked to equal
+ * ones, left out; the colour around them; the rows of tiles of this run and earlier ones */
 static int tiles(lua_State *L) {
   shown *s = self(L);
   const cs_request *request = cs_service_session(L)->request;
+  size_t count = lua_rawlen(L, 2);
   cs_tile_render render = {.context = s->context,
                            .frame = &s->frame,
                            .pyramid = &s->pyramid,
-                           .plan = &s->plan,
+                           .jobs = push_jobs(L, count),
+                           .job_count = count,
                            .log = &s->log,
                            .skips_empty = skips_empty(L),
                            .draw = draw,
@@ -381,21 +392,13 @@ static int tiles(lua_State *L) {
   cs_request_read(request, "--workers", &render.workers);
   cs_progress_start(s->progress, request, CS_PROGRESS_AUTO, cs_tile_render_row_count(&render));
   s->progress->noun = "tile row";
-  celspan_status status = cs_tile_render_run(&render);
-  if (status == CELSPAN_OK)
-    status = write_page(L, s, render.background);
-  cs_service_try(L, status);
+  cs_service_try(L, cs_tile_render_run(&render));
   lua_pushinteger(L, (lua_Integer)render.output.written);
   lua_pushinteger(L, (lua_Integer)render.output.linked);
   lua_pushinteger(L, (lua_Integer)render.output.skipped);
-  return 3;
-}
-
-/* find_viewer(path): ends the verb if there is no viewer to copy. */
-static int find_viewer(lua_State *L) {
-  cs_service_try(L,
-                 cs_tile_page_find_viewer(cs_service_session(L)->context, luaL_checkstring(L, 1)));
-  return 0;
+  push_background(L, s, render.background);
+  push_rows(L, &s->log);
+  return 5;
 }
 
 /* ---------------------------------------------------------------- opening */
@@ -410,12 +413,13 @@ static cs_exit open_still(shown *s, const cs_request *request, const char *path)
   return cs_shown_frame(request, &s->still, &s->frame);
 }
 
-/* shown(path, is_film) -> { width =, height =, title = } and methods: the frame of --frame, under
- * the request, of the script or the film that a file is, or of a picture */
+/* shown(path, is_film) -> { width =, height =, film_width =, film_height =, title = } and methods:
+ * the frame of --frame, under the request, of the script or the film that a file is, or of a
+ * picture */
 static int open_shown(lua_State *L) {
   static const luaL_Reg methods[] = {
-      {"write", write_shown}, CS_SERVICE(pixels), CS_SERVICE(print_spans), CS_SERVICE(measure),
-      CS_SERVICE(pyramid),    CS_SERVICE(plan),   CS_SERVICE(find_tiles),  CS_SERVICE(clear_tiles),
+      {"write", write_shown}, CS_SERVICE(pixels),  CS_SERVICE(print_spans), CS_SERVICE(measure),
+      CS_SERVICE(pyramid),    CS_SERVICE(touched), CS_SERVICE(find_tiles),  CS_SERVICE(clear_tiles),
       CS_SERVICE(tiles),      {NULL, NULL}};
   cs_session *session = cs_service_session(L);
   const char *path = luaL_checkstring(L, 1);
@@ -430,6 +434,8 @@ static int open_shown(lua_State *L) {
   lua_setfield(L, -2, "open");
   cs_put_integer(L, "width", s->frame.width);
   cs_put_integer(L, "height", s->frame.height);
+  cs_put_number(L, "film_width", s->frame.film_width);
+  cs_put_number(L, "film_height", s->frame.film_height);
   cs_put_text(L, "title", s->script.film.title);
   cs_service_add(L, methods);
   return 1;
@@ -442,5 +448,4 @@ static int is_film(lua_State *L) {
   return 1;
 }
 
-const luaL_Reg cs_services_shown[] = {
-    {"shown", open_shown}, CS_SERVICE(is_film), CS_SERVICE(find_viewer), {NULL, NULL}};
+const luaL_Reg cs_services_shown[] = {{"shown", open_shown}, CS_SERVICE(is_film), {NULL, NULL}};

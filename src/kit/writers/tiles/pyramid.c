@@ -68,16 +68,6 @@ cs_pyramid_box cs_pyramid_pixels(const cs_pyramid *pyramid, int32_t level,
                           least(height, tiles->y1 * tile + overlap)};
 }
 
-int64_t cs_pyramid_count(const cs_pyramid *pyramid, int32_t first, int32_t last,
-                         const cs_pyramid_box *region) {
-  int64_t count = 0;
-  for (int32_t level = first; level <= last; level++) {
-    cs_pyramid_box tiles = cs_pyramid_tiles(pyramid, level, region);
-    count += (int64_t)(tiles.x1 - tiles.x0) * (tiles.y1 - tiles.y0);
-  }
-  return count;
-}
-
 /* ---------------------------------------------------------------- names */
 
 static bool fits(int length, size_t size) { return length > 0 && (size_t)length < size; }
@@ -112,19 +102,10 @@ bool cs_pyramid_path(const cs_pyramid *pyramid, cs_pyramid_tile tile, bool is_al
               size);
 }
 
-static bool name_with(const cs_pyramid *pyramid, const char *dzi, const char *iiif, char *path,
-                      size_t size) {
-  return fits(snprintf(path, size, "%s/%s%s", pyramid->folder, pyramid->name,
-                       pyramid->layout == CS_PYRAMID_DZI ? dzi : iiif),
-              size);
-}
-
-bool cs_pyramid_description_path(const cs_pyramid *pyramid, char *path, size_t size) {
-  return name_with(pyramid, ".dzi", "/info.json", path, size);
-}
-
 bool cs_pyramid_tiles_folder(const cs_pyramid *pyramid, char *path, size_t size) {
-  return name_with(pyramid, "_files", "", path, size);
+  return fits(snprintf(path, size, "%s/%s%s", pyramid->folder, pyramid->name,
+                       pyramid->layout == CS_PYRAMID_DZI ? "_files" : ""),
+              size);
 }
 
 celspan_status cs_pyramid_too_long(celspan_context *context, const cs_pyramid *pyramid) {

@@ -57,17 +57,12 @@ cs_pyramid_box cs_pyramid_tiles(const cs_pyramid *pyramid, int32_t level,
 /* The pixels of a rectangle of tiles, including their overlap. */
 cs_pyramid_box cs_pyramid_pixels(const cs_pyramid *pyramid, int32_t level,
                                  const cs_pyramid_box *tiles);
-/* The number of tiles of the levels from first to last. */
-int64_t cs_pyramid_count(const cs_pyramid *pyramid, int32_t first, int32_t last,
-                         const cs_pyramid_box *region);
 
 /* Writes the path of a tile, which begins with FOLDER. is_alias: the second name ("full") that IIIF
  * gives to the only tile of a level. false: the path is too long, or there is no such name. */
 bool cs_pyramid_path(const cs_pyramid *pyramid, cs_pyramid_tile tile, bool is_alias, char *path,
                      size_t size);
-/* Write the paths of the file that describes the pyramid, and of the folder of its tiles. Both are
- * in FOLDER. false: the path is too long. */
-bool cs_pyramid_description_path(const cs_pyramid *pyramid, char *path, size_t size);
+/* Writes the path of the folder of the tiles, which is in FOLDER. false: the path is too long. */
 bool cs_pyramid_tiles_folder(const cs_pyramid *pyramid, char *path, size_t size);
 /* Sets and returns the failure of a path that is too long. */
 celspan_status cs_pyramid_too_long(celspan_context *context, const cs_pyramid *pyramid);

@@ -189,8 +189,8 @@ static celspan_status render_job(cs_tile_render *render, const cs_tile_job *job)
 
 size_t cs_tile_render_row_count(const cs_tile_render *render) {
   size_t count = 0;
-  for (size_t i = 0; i < render->plan->count; i++) {
-    const cs_tile_job *job = &render->plan->jobs[i];
+  for (size_t i = 0; i < render->job_count; i++) {
+    const cs_tile_job *job = &render->jobs[i];
     for (int32_t row = job->tiles.y0; row < job->tiles.y1; row++)
       count += !is_done(render, job, row);
   }
@@ -224,8 +224,8 @@ celspan_status cs_tile_render_run(cs_tile_render *render) {
     cs_tile_output_skip(&render->output, render->background);
   render->threads = choose_threads(render);
   celspan_status status = CELSPAN_OK;
-  for (size_t i = 0; i < render->plan->count && status == CELSPAN_OK; i++)
-    status = render_job(render, &render->plan->jobs[i]);
+  for (size_t i = 0; i < render->job_count && status == CELSPAN_OK; i++)
+    status = render_job(render, &render->jobs[i]);
   cs_tile_output_finish(&render->output);
   free_means(render->context, &render->means);
   return keep_finished(render, status);

@@ -1,4 +1,4 @@
-/* Rendering a pyramid: all tiles of the plan that the record does not contain yet.
+/* Rendering a pyramid: all tiles of some jobs that the record does not contain yet.
  *
  *   scene --one pass of rows a level--> rows of spans --cut--> tiles --equal ones linked--> files
  *
@@ -8,7 +8,6 @@
 #pragma once
 
 #include "writers/tiles/log.h"
-#include "writers/tiles/plan.h"
 
 /* A level from which all levels of at most a few hundred pixels a side are made: each of their
  * pixels is the mean over the area of this base that it covers, in linear light and premultiplied.
@@ -19,12 +18,19 @@ typedef struct cs_tile_means {
   float *pixels; /* RGBA; NULL: not rendered yet */
 } cs_tile_means;
 
+/* Tiles of one level. */
+typedef struct cs_tile_job {
+  int32_t level;
+  cs_pyramid_box tiles;
+} cs_tile_job;
+
 typedef struct cs_tile_render {
   /* Set by the caller. */
   celspan_context *context;
   const celspan_frame_desc *frame; /* the whole frame */
   const cs_pyramid *pyramid;
-  const cs_tile_plan *plan;
+  const cs_tile_job *jobs; /* by level, coarse to fine */
+  size_t job_count;
   cs_tile_log *log;    /* open */
   int32_t workers;     /* 0: one for each processor */
   bool skips_empty;    /* omits tiles that show only the background */
