@@ -103,18 +103,6 @@ const cs_video_format *cs_video_format_named(const char *name) {
   return NULL;
 }
 
-/* Adds the name to a list of names in `out`. */
-static size_t add_name(char *out, size_t size, size_t length, const char *name) {
-  const char *comma = length ? ", " : "";
-  return length < size ? length + (size_t)snprintf(out + length, size - length, "%s%s", comma, name)
-                       : length;
-}
-
-void cs_video_format_list(char *out, size_t size) {
-  for (size_t i = 0, length = 0; i < sizeof FORMATS / sizeof *FORMATS; i++)
-    length = add_name(out, size, length, FORMATS[i].name);
-}
-
 const cs_video_codec *cs_video_codec_named(const cs_video_format *format, const char *name) {
   for (size_t i = 0; i < CS_VIDEO_CODECS && format->codecs[i]; i++)
     if (!name || strcasecmp(name, format->codecs[i]->name) == 0)
@@ -124,8 +112,9 @@ const cs_video_codec *cs_video_codec_named(const cs_video_format *format, const 
 
 void cs_video_codec_list(const cs_video_format *format, char *out, size_t size) {
   size_t length = 0;
-  for (size_t i = 0; i < CS_VIDEO_CODECS && format->codecs[i]; i++)
-    length = add_name(out, size, length, format->codecs[i]->name);
+  for (size_t i = 0; i < CS_VIDEO_CODECS && format->codecs[i] && length < size; i++)
+    length += (size_t)snprintf(out + length, size - length, "%s%s", length ? ", " : "",
+                               format->codecs[i]->name);
 }
 
 /* Whether the encoder gets frames of 16 bits. */

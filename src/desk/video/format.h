@@ -122,11 +122,10 @@ enum { CS_VIDEO_SWATCHES = 16 }; /* pixels a side */
 
 /* The format of that name, or else NULL. */
 const cs_video_format *cs_video_format_named(const char *name);
-/* The names of all formats, "mp4, mkv, ...": for messages; cut if there is no place for all. */
-void cs_video_format_list(char *out, size_t size);
 /* The codec of that name, or the default for NULL; NULL: the format cannot contain it. */
 const cs_video_codec *cs_video_codec_named(const cs_video_format *format, const char *name);
-/* The names of the format's codecs, in the same way. */
+/* The names of the format's codecs, "h264, h265, ...": for messages; cut if there is no place for
+ * all. */
 void cs_video_codec_list(const cs_video_format *format, char *out, size_t size);
 /* Whether the encoder gets alpha under the options. */
 bool cs_video_has_alpha(const cs_video_options *options);

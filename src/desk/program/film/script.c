@@ -359,16 +359,6 @@ void cs_script_close(cs_script *script) {
   script->sandbox = NULL;
 }
 
-cs_exit cs_script_run(celspan_context *context, const cs_request *request,
-                      cs_exit (*verb)(cs_script *script, const cs_request *request)) {
-  cs_script script;
-  cs_exit outcome = cs_script_open(context, request, request->operands[0], &script);
-  if (outcome == CS_EXIT_OK)
-    outcome = verb(&script, request);
-  cs_script_close(&script);
-  return outcome;
-}
-
 celspan_status cs_script_try(cs_script *script, int64_t number) {
   watch_script(script->L);
   cs_film_frame_finish(&script->frame);

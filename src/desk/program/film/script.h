@@ -45,10 +45,6 @@ cs_exit cs_script_open(celspan_context *context, const cs_request *request, cons
 cs_exit cs_script_open_again(celspan_context *context, const cs_request *request, const char *path,
                              cs_script *out);
 void cs_script_close(cs_script *script);
-/* Runs the script that is the first operand, then a verb with it. Returns the outcome, which has
- * been reported. */
-cs_exit cs_script_run(celspan_context *context, const cs_request *request,
-                      cs_exit (*verb)(cs_script *script, const cs_request *request));
 
 /* Builds a frame of the film and frees the previous one. On failure the sentence, which names the
  * frame, is in the context. */
