@@ -23,11 +23,6 @@ static int close_folder(lua_State *L) {
   return 0;
 }
 
-/* Pushes a holder for an open folder, which closes it in any case. */
-static DIR **push_folder_holder(lua_State *L) {
-  return cs_userdata_push_holder(L, "celspan.folder", sizeof(DIR *), close_folder);
-}
-
 /* Returns the failure for an errno. */
 static int fail_folder(lua_State *L, const char *path, const char *what) {
   lua_pushnil(L);
@@ -38,7 +33,7 @@ static int fail_folder(lua_State *L, const char *path, const char *what) {
 int cs_folders_names(lua_State *L) {
   const char *path = luaL_checkstring(L, 1);
   cs_host_admit(L, path);
-  DIR **folder = push_folder_holder(L);
+  DIR **folder = cs_userdata_push_holder(L, "celspan.folder", sizeof *folder, close_folder);
   *folder = opendir(path);
   if (!*folder)
     return fail_folder(L, path, "cannot be opened");
@@ -95,15 +90,10 @@ static int release(lua_State *L) {
   return 0;
 }
 
-/* Pushes a sequence, which is released in any case. */
-static cs_sequence *push_sequence(lua_State *L) {
-  return cs_userdata_push_holder(L, "celspan.sequence", sizeof(cs_sequence), release);
-}
-
 int cs_folders_frames(lua_State *L) {
   const char *pattern = luaL_checkstring(L, 1), *list = luaL_optstring(L, 2, NULL);
   celspan_context *context = cs_host_context(L);
-  cs_sequence *sequence = push_sequence(L);
+  cs_sequence *sequence = cs_userdata_push_holder(L, "celspan.sequence", sizeof *sequence, release);
   CS_HOST_TRY(L, list ? cs_sequence_parse(context, list, NULL, sequence)
                       : cs_sequence_list(context, pattern, sequence));
   push_numbers(L, sequence);

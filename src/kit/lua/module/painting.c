@@ -9,11 +9,6 @@
 
 CS_HOLDER_RELEASE(release, celspan_painting, celspan_painting_unref)
 
-/* Pushes a holder for a painting, which releases it in any case. */
-static celspan_painting **push_holder(lua_State *L) {
-  return cs_userdata_push_holder(L, "celspan.painting", sizeof(celspan_painting *), release);
-}
-
 /* Puts a surface into the table on top of the stack; NULL: nothing. */
 static void put_surface(lua_State *L, const char *name, celspan_surface *surface) {
   if (!surface)
@@ -72,7 +67,8 @@ int cs_painting_read(lua_State *L) {
   const char *path = luaL_checkstring(L, 1);
   cs_host_admit(L, path);
   celspan_context *context = cs_host_context(L);
-  celspan_painting **painting = push_holder(L);
+  celspan_painting **painting =
+      cs_userdata_push_holder(L, "celspan.painting", sizeof *painting, release);
   int32_t width, height;
   CS_HOST_TRY(L, celspan_painting_read(context, path, painting));
   celspan_painting_size(*painting, &width, &height);

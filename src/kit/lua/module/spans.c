@@ -7,17 +7,7 @@
 
 #define ROWS "celspan.rows"
 
-static int finish_rows(lua_State *L) {
-  celspan_rows **rows = luaL_checkudata(L, 1, ROWS);
-  if (*rows)
-    celspan_rows_destroy(*rows);
-  *rows = NULL;
-  return 0;
-}
-
-static celspan_rows **push_rows(lua_State *L) {
-  return cs_userdata_push_holder(L, ROWS, sizeof(celspan_rows *), finish_rows);
-}
+CS_HOLDER_RELEASE(release, celspan_rows, celspan_rows_destroy)
 
 /* The colours of a span as numbers 1, 2, ...: one RGBA for a single span, the RGBA of the first and
  * of the last pixel for a gradient, and the RGBA of every pixel for an array. */
@@ -93,7 +83,7 @@ int cs_spans_make(lua_State *L) {
   cs_options options;
   CS_HOST_TRY(L, cs_subject_read(L, &cs_noun_spans, &options));
   int32_t range[2];
-  celspan_rows **rows = push_rows(L);
+  celspan_rows **rows = cs_userdata_push_holder(L, ROWS, sizeof *rows, release);
   CS_HOST_TRY(L, celspan_rows_create(cs_host_context(L), &options.desc, rows));
   find_rows(&options, range);
   lua_newtable(L);

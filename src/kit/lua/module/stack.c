@@ -27,10 +27,6 @@ static int release(lua_State *L) {
   return 0;
 }
 
-static holder *push_holder(lua_State *L) {
-  return cs_userdata_push_holder(L, STACK, sizeof(holder), release);
-}
-
 static const holder *holder_at(lua_State *L, int index) {
   const holder *held = luaL_checkudata(L, index, STACK);
   luaL_argcheck(L, held->stack, index, "is closed");
@@ -69,7 +65,7 @@ int cs_stack_make(lua_State *L) {
   cs_options options;
   celspan_context *context = cs_host_context(L);
   CS_HOST_TRY(L, cs_subject_read(L, &cs_noun_stack, &options));
-  holder *held = push_holder(L);
+  holder *held = cs_userdata_push_holder(L, STACK, sizeof *held, release);
   lua_State *before = cs_host_enter(L);
   celspan_status status = celspan_stack_create(context, &options.desc, &held->stack);
   cs_host_leave(L, before);

@@ -14,11 +14,6 @@ static int finish_frame(lua_State *L) {
   return 0;
 }
 
-/* Pushes the owner of a frame that is built later. */
-static cs_film_frame *push_frame(lua_State *L) {
-  return cs_userdata_push_holder(L, FRAME, sizeof(cs_film_frame), finish_frame);
-}
-
 /* ---------------------------------------------------------------- films */
 
 static int64_t number_of(const cs_options *options, const cs_film_info *film) {
@@ -35,7 +30,7 @@ static celspan_status read_film(lua_State *L, cs_options *options) {
   cs_film_info film;
   cs_lua_film_read(L, 1, &film);
   int64_t number = number_of(options, &film);
-  cs_film_frame *frame = push_frame(L);
+  cs_film_frame *frame = cs_userdata_push_holder(L, FRAME, sizeof *frame, finish_frame);
   CS_TRY(cs_lua_film_build(L, 1, number, frame));
   cs_options_use_film(options, &film);
   cs_film_expose(&film, frame, &options->desc);

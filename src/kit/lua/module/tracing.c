@@ -20,11 +20,6 @@
 
 CS_HOLDER_RELEASE(release, celspan_trace, celspan_trace_unref)
 
-/* Pushes a holder for a tracing, which releases it in any case. */
-static celspan_trace **push_holder(lua_State *L) {
-  return cs_userdata_push_holder(L, "celspan.tracing", sizeof(celspan_trace *), release);
-}
-
 /* ---------------------------------------------------------------- options */
 
 /* The codes of colour i of the list on top of the stack. */
@@ -133,7 +128,7 @@ static celspan_status push_tracing(lua_State *L, const celspan_trace **out) {
   unsigned char codes[3 * MOST_COLOURS];
   celspan_picture_desc picture = CELSPAN_PICTURE_DESC;
   celspan_trace_desc desc = read_options(L, &picture, codes);
-  celspan_trace **trace = push_holder(L);
+  celspan_trace **trace = cs_userdata_push_holder(L, "celspan.tracing", sizeof *trace, release);
   celspan_status status = cs_result_make(cs_host_context(L), &desc, trace);
   *out = *trace;
   return status;

@@ -48,16 +48,7 @@ static const uint8_t *push_mask(lua_State *L, int index, size_t count) {
 
 /* ---------------------------------------------------------------- a tracker */
 
-static int release(lua_State *L) {
-  celspan_tracker **tracker = luaL_checkudata(L, 1, TRACKER);
-  celspan_tracker_destroy(*tracker);
-  *tracker = NULL;
-  return 0;
-}
-
-static celspan_tracker **push_holder(lua_State *L) {
-  return cs_userdata_push_holder(L, TRACKER, sizeof(celspan_tracker *), release);
-}
+CS_HOLDER_RELEASE(release, celspan_tracker, celspan_tracker_destroy)
 
 static double number_in(lua_State *L, int index, int i) {
   lua_rawgeti(L, index, i);
@@ -77,7 +68,7 @@ int cs_track_tracker(lua_State *L) {
   celspan_context *context = cs_host_context(L);
   celspan_luma luma = push_luma(L, 1, width, height);
   desc.mask = push_mask(L, 6, (size_t)width * (size_t)height);
-  celspan_tracker **holder = push_holder(L);
+  celspan_tracker **holder = cs_userdata_push_holder(L, TRACKER, sizeof *holder, release);
   celspan_status status = celspan_tracker_create(context, &luma, &desc, holder);
   return status == CELSPAN_OK ? 1 : cs_host_fail(L, status);
 }
