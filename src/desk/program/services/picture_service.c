@@ -1,14 +1,8 @@
 /* Pictures for verbs in Lua: facts of files, and frames as pictures. */
-#include <errno.h>
-#include <string.h>
-#include <unistd.h>
-
 #include "celspan/plane.h"
 #include "inside/colour.h"
 #include "inside/context.h"
-#include "inside/files.h"
 #include "inside/pictures.h"
-#include "inside/sinks.h"
 #include "lua/bind/put.h"
 #include "lua/bind/userdata.h"
 #include "lua/nouns/lua_film.h"
@@ -16,6 +10,7 @@
 #include "program/film/view.h"
 #include "program/outputs/outputs.h"
 #include "program/outputs/target.h"
+#include "program/stage/stage.h"
 #include "writers/still/still.h"
 
 /* ---------------------------------------------------------------- what a picture holds */
@@ -242,63 +237,21 @@ static int write_frame(lua_State *L) {
 
 /* ---------------------------------------------------------------- a picture in memory */
 
-typedef struct open_file {
-  celspan_context *context;
-  cs_file *file;
-} open_file;
-
-static int discard_file(lua_State *L) {
-  open_file *open = lua_touserdata(L, 1);
-  cs_file_discard(open->file, open->context);
-  open->file = NULL;
+static int release_png(lua_State *L) {
+  cs_stage_release(lua_touserdata(L, 1));
   return 0;
 }
 
-static celspan_status draw_png(const open_file *open, const celspan_frame_desc *desc,
-                               const char *path) {
-  celspan_file_desc file = CELSPAN_FILE_DESC;
-  celspan_coding coding = CELSPAN_CODING;
-  celspan_sink sink;
-  coding.depth = CELSPAN_DEPTH_8;
-  coding.space = desc->space;
-  file.coding = &coding;
-  file.is_opaque = celspan_frame_is_opaque(desc);
-  file.workers = desc->workers;
-  CS_TRY(cs_sink_png_part(open->context, path, open->file, &file, &sink));
-  return celspan_frame_render(open->context, desc, &sink, NULL);
-}
-
-static celspan_status read_back(const open_file *open, const char *path, void *bytes, size_t size) {
-  const char *name;
-  CS_TRY(cs_file_temporary(open->file, open->context, &name));
-  int descriptor = cs_open_to_read(name);
-  ssize_t got = descriptor < 0 ? -1 : cs_open_read_at(descriptor, bytes, size, 0);
-  int error = errno;
-  if (descriptor >= 0)
-    close(descriptor);
-  return got == (ssize_t)size
-             ? CELSPAN_OK
-             : cs_fail(open->context, CELSPAN_OUTPUT, "%s: cannot read it back: %s", path,
-                       got < 0 ? strerror(error) : "bytes are missing");
-}
-
-/* png(film, path) -> the first frame of a film as the bytes of a PNG of 8 bits, its width, its
- * height. path: of the output of which it becomes a part; a temporary file is beside that. */
+/* png(film) -> the first frame of a film as the bytes of a PNG of 8 bits, its width, its height */
 static int make_png(lua_State *L) {
-  const char *path = luaL_checkstring(L, 2);
   celspan_frame_desc desc;
   expose_first(L, &desc);
-  open_file *open =
-      cs_userdata_push_holder(L, "celspan.program.open_file", sizeof *open, discard_file);
-  open->context = cs_service_session(L)->context;
-  cs_service_try(L, cs_file_create(open->context, NULL, path, &open->file));
-  cs_service_try(L, draw_png(open, &desc, path));
-  const size_t size = (size_t)cs_file_size(open->file);
-  void *bytes = lua_newuserdatauv(L, size, 0);
-  cs_service_try(L, read_back(open, path, bytes, size));
-  cs_file_discard(open->file, open->context);
-  open->file = NULL;
-  lua_pushlstring(L, bytes, size);
+  cs_stage_picture *png =
+      cs_userdata_push_holder(L, "celspan.program.png", sizeof *png, release_png);
+  png->is_opaque = celspan_frame_is_opaque(&desc);
+  png->has_workers = true;
+  cs_service_try(L, cs_stage_make(png, cs_service_session(L)->context, &desc, CS_STAGE_PNG));
+  lua_pushlstring(L, (const char *)png->bytes, png->size);
   lua_pushinteger(L, desc.width);
   lua_pushinteger(L, desc.height);
   return 3;

@@ -124,15 +124,21 @@ static celspan_status put_data(void *user, celspan_context *context, const void 
 static celspan_status begin_png(void *user, celspan_context *context, int32_t width,
                                 int32_t height) {
   cs_stage_picture *p = user;
-  const cs_png_picture desc = {.coding = p->coding, .width = width, .height = height, .workers = 1};
+  static const char software[] = "Software\0celspan";
+  const cs_png_picture desc = {.coding = p->coding,
+                               .is_opaque = p->is_opaque,
+                               .width = width,
+                               .height = height,
+                               .workers = p->workers};
   unsigned char header[CS_PNG_HEADER] = {0};
   cs_png_store_32(header, (uint32_t)width);
   cs_png_store_32(header + 4, (uint32_t)height);
   header[8] = 8;
-  header[9] = 6; /* RGBA */
+  header[9] = p->is_opaque ? 2 : 6; /* RGB or RGBA */
   CS_TRY(append(p, cs_png_signature, sizeof cs_png_signature));
   CS_TRY(put_chunk(p, "IHDR", header, sizeof header));
   CS_TRY(put_chunk(p, "sRGB", "", 1));
+  CS_TRY(put_chunk(p, "tEXt", software, sizeof software - 1));
   return cs_png_strips_create(context, &desc, put_data, p, &p->strips);
 }
 
@@ -234,6 +240,7 @@ celspan_status cs_stage_make(cs_stage_picture *p, celspan_context *context,
   p->context = context;
   p->coding = coding;
   p->coding.space = desc->space;
+  p->workers = p->has_workers ? desc->workers : 1;
   celspan_sink sink = {.struct_size = sizeof sink,
                        .user = p,
                        .begin = begin_png,

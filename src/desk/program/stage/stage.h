@@ -25,15 +25,18 @@ typedef enum cs_stage_kind {
 
 /* A picture in memory. One that is all zero may be released, too. */
 typedef struct cs_stage_picture {
+  bool is_opaque;   /* of a PNG: it has no alpha */
+  bool has_workers; /* of a PNG: those of the frame pack it, too */
   celspan_coding coding;
   celspan_context *context; /* whose memory has the bytes; borrowed */
   unsigned char *bytes;     /* owned */
   size_t size, capacity;
-  size_t stride;         /* bytes of a row; 0 for a PNG */
+  size_t stride; /* bytes of a row; 0 for a PNG */
+  int workers;
   cs_png_strips *strips; /* the strips of a PNG that is being made */
 } cs_stage_picture;
 
-/* p: all zero. It must be released, whatever this returns. Any thread. */
+/* p: all zero, except the first two fields. It must be released, whatever this returns. Any thread. */
 CELSPAN_CHECKED celspan_status cs_stage_make(cs_stage_picture *p, celspan_context *context,
                                              const celspan_frame_desc *desc, cs_stage_kind kind);
 void cs_stage_release(cs_stage_picture *p);

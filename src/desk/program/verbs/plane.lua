@@ -43,7 +43,7 @@ local function still()
   local size = { math.ceil(plane.width * by), math.ceil(plane.height * by) }
   local image = program.check(plane:pixels { size = size })
   return (program.png(celspan.rostrum { size = size, celspan.cel { celspan.image { size = size,
-    pixels = image:bytes { depth = 8 }, format = "rgba8", x = 0, y = 0 } } }, page))
+    pixels = image:bytes { depth = 8 }, format = "rgba8", x = 0, y = 0 } } }))
 end
 
 program.save(page, filled("plane.html", {

@@ -179,7 +179,7 @@ end
 
 --- A new asset: the picture of a film.
 function Bake:asset_of(film)
-  local bytes, width, height = program.png(film, self.path)
+  local bytes, width, height = program.png(film)
   local assets = self.layers.assets
   local name = #assets + 1
   local asset = { id = "picture" .. name, w = width, h = height, u = "", e = 1 }
