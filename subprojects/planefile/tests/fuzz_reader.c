@@ -6,30 +6,8 @@
  * clang's -fsanitize=fuzzer this is a fuzz target; with REPLAY_MAIN its own main runs the files of
  * a folder.
  */
+#include "../../spanfile/tests/fuzz.h"
 #include "mend.h"
-
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
-
-typedef struct meter {
-  size_t bytes, peak;
-} meter;
-
-static void *metered(void *user, void *block, size_t old_size, size_t new_size) {
-  meter *m = user;
-  m->bytes += new_size - old_size;
-  m->peak = m->bytes > m->peak ? m->bytes : m->peak;
-  if (new_size > 0)
-    return realloc(block, new_size);
-  free(block);
-  return NULL;
-}
-
-static void demand(bool holds, const char *text) {
-  if (holds)
-    return;
-  fprintf(stderr, "%s\n", text);
-  abort();
-}
 
 static void check_piece(const planefile_band *band, const planefile_piece *piece) {
   demand(piece->degree >= 1 && piece->degree <= 3, "a piece of another degree");
@@ -156,7 +134,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   memcpy(file.bytes, data + 1, size - 1);
   if (data[0] & 1)
     mend_sums(&file);
-  meter m = {0, 0};
+  meter m = {0};
   planefile_source source = memory_source(&file);
   source.resize = metered;
   source.resize_user = &m;
@@ -177,33 +155,3 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   free(file.bytes);
   return 0;
 }
-
-#ifdef REPLAY_MAIN
-
-#include <dirent.h>
-
-static void replay(const char *path) {
-  static unsigned char bytes[1 << 20];
-  FILE *file = fopen(path, "rb");
-  if (!CHECK(file != NULL))
-    return;
-  size_t size = fread(bytes, 1, sizeof bytes, file);
-  fclose(file);
-  CHECK(LLVMFuzzerTestOneInput(bytes, size) == 0);
-}
-
-int main(int count, char **arguments) {
-  DIR *folder = count == 2 ? opendir(arguments[1]) : NULL;
-  if (!CHECK(folder != NULL))
-    return check_done();
-  for (struct dirent *entry; (entry = readdir(folder));) {
-    char path[4096];
-    snprintf(path, sizeof path, "%s/%s", arguments[1], entry->d_name);
-    if (entry->d_name[0] != '.')
-      replay(path);
-  }
-  closedir(folder);
-  return check_done();
-}
-
-#endif

@@ -5,26 +5,6 @@
  * files alone, and some films, beginning with a byte of 0 to 3, like the fuzzer's inputs. */
 #include "support.h"
 
-static void put_named(const char *folder, const char *name, int first, const void *bytes,
-                      size_t size) {
-  char path[4096];
-  snprintf(path, sizeof path, "%s/%s", folder, name);
-  FILE *file = fopen(path, "wb");
-  if (!CHECK(file != NULL))
-    return;
-  if (first >= 0)
-    fputc(first, file);
-  CHECK(fwrite(bytes, 1, size, file) == size);
-  CHECK(fclose(file) == 0);
-}
-
-static void put_file(const char *folder, int number, const char *ending, int first,
-                     const void *bytes, size_t size) {
-  char name[64];
-  snprintf(name, sizeof name, "%d%s", number, ending);
-  put_named(folder, name, first, bytes, size);
-}
-
 static void put_drawn(const char *folder, int number, memory_file *file, uint32_t columns,
                       uint32_t rows) {
   planefile_plane *plane = read_plane(file);
@@ -32,10 +12,10 @@ static void put_drawn(const char *folder, int number, memory_file *file, uint32_
   planefile_cell *pixels = draw_view(plane, view);
   size_t count = (size_t)columns * rows;
   unsigned char *codes = malloc(4 * count);
-  put_file(folder, number, ".pixels", -1, pixels, count * sizeof *pixels);
+  put_numbered(folder, number, ".pixels", -1, pixels, count * sizeof *pixels);
   for (size_t i = 0; CHECK(codes != NULL) && i < count; i++)
     planefile_srgb8(plane, pixels[i], codes + 4 * i);
-  put_file(folder, number, ".codes", -1, codes, 4 * count);
+  put_numbered(folder, number, ".codes", -1, codes, 4 * count);
   free(codes);
   free(pixels);
   planefile_plane_destroy(plane);
@@ -82,7 +62,7 @@ static void put_input(const char *folder, int number) {
   drawing d = make(number, number % 2);
   memory_file file = number % 5 == 4 ? make_film(number - 3, number, number % 2)
                                      : write_coded(&d.plane, number % 8 == 1);
-  put_file(folder, number, "", number % 4, file.bytes, file.size);
+  put_numbered(folder, number, "", number % 4, file.bytes, file.size);
   free(file.bytes);
   drawing_free(&d);
 }
@@ -91,7 +71,7 @@ static void put_plane(const char *folder, int number, uint32_t columns, uint32_t
                       bool is_coded) {
   drawing d = make(number, is_coded);
   memory_file file = write_coded(&d.plane, is_coded);
-  put_file(folder, number, ".plane", -1, file.bytes, file.size);
+  put_numbered(folder, number, ".plane", -1, file.bytes, file.size);
   put_drawn(folder, number, &file, columns, rows);
   free(file.bytes);
   drawing_free(&d);
@@ -106,7 +86,7 @@ static void put_pictures(const char *folder) {
       continue;
     for (uint32_t y = 0; y < picture->height; y++)
       picture_row(picture->user, y, codes + row * y);
-    put_named(folder, picture->name, -1, codes, row * picture->height);
+    put_file(folder, picture->name, -1, codes, row * picture->height);
   }
 }
 
@@ -123,7 +103,7 @@ int main(int count, char **arguments) {
                 is_coded);
   if (count > 3) {
     memory_file film = make_film(0, planes, is_coded);
-    put_named(arguments[1], "film.plane", -1, film.bytes, film.size);
+    put_file(arguments[1], "film.plane", -1, film.bytes, film.size);
     free(film.bytes);
     put_pictures(arguments[1]);
   }

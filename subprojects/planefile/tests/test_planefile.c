@@ -88,7 +88,7 @@ static void test_round_trips(void) {
     const planefile_band whole = with_pictures(plane, pictures);
     memory_file again = write_plane(&whole);
     planefile_plane *other = read_plane(&again);
-    CHECK(again.size == file.size && memcmp(again.bytes, file.bytes, file.size) == 0);
+    CHECK(memory_is_same(&again, &file));
     for (uint32_t i = 0; i < band->border_count; i++)
       CHECK(is_same_border(band, planefile_plane_band(other, 0), i));
     planefile_plane_destroy(other);
@@ -143,7 +143,7 @@ static void test_coded(void) {
     if (planefile_plane_info(plane).picture_count ==
         0) { /* their pixels are not read to be written */
       memory_file again = write_coded(band, true);
-      CHECK(again.size == file.size && memcmp(again.bytes, file.bytes, file.size) == 0);
+      CHECK(memory_is_same(&again, &file));
       free(again.bytes);
     }
     planefile_plane_destroy(plane);
@@ -488,17 +488,6 @@ static void test_varied_bands(void) {
 
 /* ---------------------------------------------------------------- tiles */
 
-/* Adds up the bytes that it gives. */
-static void *counting(void *user, void *block, size_t old_size, size_t new_size) {
-  size_t *bytes = user;
-  (void)old_size;
-  *bytes += new_size;
-  if (new_size > 0)
-    return realloc(block, new_size);
-  free(block);
-  return NULL;
-}
-
 /* Whether each row of a tile is one span. */
 static bool is_plain(const planefile_plane *plane, const planefile_view *tile) {
   planefile_drawer *drawer = NULL;
@@ -523,18 +512,18 @@ static void test_plain_tiles(void) {
   planefile_source source = memory_source(&file);
   planefile_plane *plane;
   random_state random = {11};
-  size_t bytes = 0;
+  meter m = {0};
   int plain = 0, small = 0, large = 0;
-  source.resize = counting;
-  source.resize_user = &bytes;
+  source.resize = metered;
+  source.resize_user = &m;
   CHECK(planefile_read(&source, 0, PLANEFILE_SIDE, &plane, NULL) == PLANEFILE_OK);
   for (int i = 0; i < 100; i++) {
     uint32_t x = random_below(&random, SIZE - SIDE), y = random_below(&random, SIZE - SIDE);
-    bytes = 0;
+    m.given = 0;
     if (is_plain(plane, &(planefile_view){SIZE, SIZE, x, y, SIDE, SIDE, PLANEFILE_AREA})) {
       plain++;
-      small += bytes < 9000;
-      large += bytes > 128 * 1024;
+      small += m.given < 9000;
+      large += m.given > 128 * 1024;
     }
   }
   CHECK(plain > 90 && small > plain / 2 && large < plain / 2);
@@ -883,33 +872,19 @@ static void check_next(memory_file *film, uint64_t seed) {
   CHECK(plane == NULL);
 }
 
-typedef struct live_bytes {
-  size_t now, least;
-} live_bytes;
-
-static void *count_bytes(void *user, void *block, size_t old_size, size_t new_size) {
-  live_bytes *live = user;
-  live->now += new_size - old_size;
-  live->least = live->now < live->least ? live->now : live->least;
-  if (new_size > 0)
-    return realloc(block, new_size);
-  free(block);
-  return NULL;
-}
-
 /* What is not needed of the frame before is freed before the next one is read. */
 static void check_memory_of_next(memory_file *film) {
-  live_bytes live = {0, SIZE_MAX};
+  meter live = {0};
   planefile_source source = memory_source(film);
   planefile_plane *plane = NULL;
-  source.resize = count_bytes;
+  source.resize = metered;
   source.resize_user = &live;
   CHECK(planefile_read_next(&source, 1, &plane, NULL) == PLANEFILE_OK);
-  const size_t before = live.least = live.now;
+  const size_t before = live.least = live.bytes;
   CHECK(planefile_read_next(&source, 1, &plane, NULL) == PLANEFILE_OK);
-  CHECK(live.now == before && live.least < before);
+  CHECK(live.bytes == before && live.least < before);
   planefile_plane_destroy(plane);
-  CHECK(live.now == 0);
+  CHECK(live.bytes == 0);
 }
 
 /* A film with any byte altered is refused, or its frames can be drawn. */
@@ -1066,17 +1041,6 @@ static void test_bad_films(void) {
 
 /* ---------------------------------------------------------------- failures */
 
-/* Fails at one allocation, counted down. */
-static void *failing(void *user, void *block, size_t old_size, size_t new_size) {
-  int *left = user;
-  (void)old_size;
-  if (new_size == 0) {
-    free(block);
-    return NULL;
-  }
-  return --*left == 0 ? NULL : realloc(block, new_size);
-}
-
 static planefile_status draw_all(const planefile_plane *plane) {
   planefile_drawer *drawer;
   planefile_view view = {40, 40, 0, 0, 40, 40, PLANEFILE_AREA};
@@ -1103,21 +1067,21 @@ static planefile_status write_frames(const planefile_writer_desc *desc,
 }
 
 static planefile_status write_and_draw(const planefile_band from[2], double frames_second,
-                                       int *left) {
+                                       meter *m) {
   memory_file file = {0};
   planefile_writer_desc desc = {.width = 4,
                                 .height = 3,
                                 .write = memory_write,
                                 .user = &file,
-                                .resize = failing,
-                                .resize_user = left,
+                                .resize = metered,
+                                .resize_user = m,
                                 .frames_second = frames_second,
                                 .is_coded = true};
   planefile_plane *plane = NULL;
   planefile_status status = write_frames(&desc, from, frames_second > 0 ? 3 : 1);
   planefile_source source = memory_source(&file);
-  source.resize = failing;
-  source.resize_user = left;
+  source.resize = metered;
+  source.resize_user = m;
   if (status == PLANEFILE_OK)
     status = planefile_read_frame(&source, frames_second > 0, 0, PLANEFILE_SIDE, &plane, NULL);
   if (status == PLANEFILE_OK)
@@ -1138,8 +1102,9 @@ static void check_no_memory(double frames_second, variety kind) {
   const planefile_band planes[2] = {d.plane, next.plane};
   int count = 0;
   for (int k = 1;; k++, count++) {
-    int left = k;
-    planefile_status status = write_and_draw(planes, frames_second, &left);
+    meter m = {.fail_at = k};
+    planefile_status status = write_and_draw(planes, frames_second, &m);
+    CHECK(m.bytes == 0);
     if (status == PLANEFILE_OK)
       break;
     CHECK(status == PLANEFILE_NO_MEMORY);
@@ -1147,15 +1112,6 @@ static void check_no_memory(double frames_second, variety kind) {
   CHECK(count > 20);
   drawing_free(&next);
   drawing_free(&d);
-}
-
-/* Fails after some bytes. */
-static bool failing_write(void *user, const void *bytes, size_t size) {
-  size_t *left = user;
-  (void)bytes;
-  bool fits = size <= *left;
-  *left -= fits ? size : 0;
-  return fits;
 }
 
 static void test_no_output(void) {

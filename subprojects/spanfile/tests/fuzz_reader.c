@@ -5,30 +5,8 @@
  * ends (2). With clang's -fsanitize=fuzzer this is a fuzz target; with REPLAY_MAIN its own main
  * runs the files of a folder.
  */
+#include "fuzz.h"
 #include "mend.h"
-
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
-
-typedef struct meter {
-  size_t bytes, peak;
-} meter;
-
-static void *metered(void *user, void *block, size_t old_size, size_t new_size) {
-  meter *m = user;
-  m->bytes += new_size - old_size;
-  m->peak = m->bytes > m->peak ? m->bytes : m->peak;
-  if (new_size > 0)
-    return realloc(block, new_size);
-  free(block);
-  return NULL;
-}
-
-static void demand(bool holds, const char *text) {
-  if (holds)
-    return;
-  fprintf(stderr, "%s\n", text);
-  abort();
-}
 
 static void check_row(const spanfile_row *row, spanfile_info info) {
   uint32_t start = 0;
@@ -106,7 +84,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     mend_ends(&file);
   if ((data[0] & 1) && file.size >= SF_HEADER_BYTES + SF_END_BYTES)
     mend_sums(&file, sf_load_32(file.bytes + 30));
-  meter m = {0, 0};
+  meter m = {0};
   spanfile_source source = memory_source(&file);
   source.resize = metered;
   source.resize_user = &m;
@@ -122,33 +100,3 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   free(file.bytes);
   return 0;
 }
-
-#ifdef REPLAY_MAIN
-
-#include <dirent.h>
-
-static void replay(const char *path) {
-  static unsigned char bytes[1 << 20];
-  FILE *file = fopen(path, "rb");
-  if (!CHECK(file != NULL))
-    return;
-  size_t size = fread(bytes, 1, sizeof bytes, file);
-  fclose(file);
-  CHECK(LLVMFuzzerTestOneInput(bytes, size) == 0);
-}
-
-int main(int count, char **arguments) {
-  DIR *folder = count == 2 ? opendir(arguments[1]) : NULL;
-  if (!CHECK(folder != NULL))
-    return check_done();
-  for (struct dirent *entry; (entry = readdir(folder));) {
-    char path[4096];
-    snprintf(path, sizeof path, "%s/%s", arguments[1], entry->d_name);
-    if (entry->d_name[0] != '.')
-      replay(path);
-  }
-  closedir(folder);
-  return check_done();
-}
-
-#endif

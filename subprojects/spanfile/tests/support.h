@@ -1,76 +1,12 @@
-/* Files in memory, numbered random pictures and checks. */
+/* Numbered random pictures, as files in memory. */
 #ifndef SPANFILE_TESTS_SUPPORT_H
 #define SPANFILE_TESTS_SUPPORT_H
 
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
+#include "common.h"
 #include "spanfile.h"
-
-static int check_count, check_failures;
-
-static inline bool check(bool holds, const char *file, int line, const char *text) {
-  check_count++;
-  if (!holds && ++check_failures <= 20)
-    fprintf(stderr, "%s:%d: %s\n", file, line, text);
-  return holds;
-}
-#define CHECK(holds) check((holds), __FILE__, __LINE__, #holds)
-
-static inline int check_done(void) {
-  if (check_failures)
-    printf("%d of %d checks failed\n", check_failures, check_count);
-  else
-    printf("%d checks passed\n", check_count);
-  return check_failures != 0;
-}
-
-/* ---------------------------------------------------------------- files in memory */
-
-typedef struct memory_file {
-  unsigned char *bytes;
-  size_t size, capacity;
-} memory_file;
-
-static inline bool memory_write(void *user, const void *bytes, size_t size) {
-  memory_file *file = user;
-  if (file->size + size > file->capacity) {
-    file->capacity = 2 * (file->size + size);
-    file->bytes = realloc(file->bytes, file->capacity);
-  }
-  if (size > 0)
-    memcpy(file->bytes + file->size, bytes, size);
-  file->size += size;
-  return true;
-}
-
-static inline bool memory_read(void *user, uint64_t offset, void *bytes, size_t size) {
-  const memory_file *file = user;
-  if (offset > file->size || size > file->size - offset)
-    return false;
-  memcpy(bytes, file->bytes + offset, size);
-  return true;
-}
 
 static inline spanfile_source memory_source(memory_file *file) {
   return (spanfile_source){.read = memory_read, .user = file, .size = file->size};
-}
-
-/* ---------------------------------------------------------------- random numbers */
-
-typedef struct random_state {
-  uint64_t state;
-} random_state;
-
-static inline uint32_t random_next(random_state *random) { /* splitmix64 */
-  uint64_t z = random->state += 0x9e3779b97f4a7c15u;
-  z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9u;
-  z = (z ^ z >> 27) * 0x94d049bb133111ebu;
-  return (uint32_t)((z ^ z >> 31) >> 16);
-}
-static inline uint32_t random_below(random_state *random, uint32_t limit) {
-  return (uint32_t)((uint64_t)random_next(random) * limit >> 32);
 }
 
 /* ---------------------------------------------------------------- pictures */

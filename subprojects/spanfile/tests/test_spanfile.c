@@ -165,7 +165,7 @@ static void check_parts(const picture *p) {
   spanfile_writer_destroy(writer);
   for (int i = 0; i < 2; i++) {
     memory_file joined = write_parts(p, i == 1);
-    CHECK(whole.size == joined.size && memcmp(whole.bytes, joined.bytes, whole.size) == 0);
+    CHECK(memory_is_same(&whole, &joined));
     free(joined.bytes);
   }
   free(whole.bytes);
@@ -388,24 +388,6 @@ static void test_wide(void) {
 
 /* ---------------------------------------------------------------- memory, misuse, failing calls */
 
-typedef struct meter {
-  size_t bytes, peak;
-  int left; /* allocations that succeed; -1: all */
-} meter;
-
-static void *metered(void *user, void *block, size_t old_size, size_t new_size) {
-  meter *m = user;
-  if (new_size > old_size && m->left == 0)
-    return NULL;
-  m->left -= new_size > old_size && m->left > 0;
-  m->bytes += new_size - old_size;
-  m->peak = m->bytes > m->peak ? m->bytes : m->peak;
-  if (new_size > 0)
-    return realloc(block, new_size);
-  free(block);
-  return NULL;
-}
-
 static spanfile_status write_metered(const picture *p, memory_file *file, meter *m) {
   spanfile_writer_desc desc = {.width = p->width,
                                .height = p->height,
@@ -443,28 +425,28 @@ static spanfile_status read_metered(memory_file *file, meter *m) {
 static void test_memory(void) {
   picture p = random_picture(21, 400, 60);
   memory_file file = {0};
-  meter m = {.left = -1};
+  meter m = {0};
   CHECK(write_metered(&p, &file, &m) == SPANFILE_OK);
   CHECK(m.bytes == 0 && m.peak < 1024 * 1024);
   size_t row = (size_t)p.width * (sizeof(spanfile_span) + sizeof(int64_t) + p.pixel_size);
   m.peak = 0;
   CHECK(read_metered(&file, &m) == SPANFILE_OK);
   CHECK(m.bytes == 0 && m.peak < 80 * 1024 + 2 * row);
-  for (int left = 0;; left++) {
+  for (int fail_at = 1;; fail_at++) {
     memory_file again = {0};
-    m = (meter){.left = left};
+    m = (meter){.fail_at = fail_at};
     spanfile_status status = write_metered(&p, &again, &m);
-    bool is_same = again.size == file.size && memcmp(again.bytes, file.bytes, file.size) == 0;
+    bool is_same = memory_is_same(&again, &file);
     free(again.bytes);
     CHECK(m.bytes == 0);
     if (status == SPANFILE_OK) {
-      CHECK(is_same && left > 5);
+      CHECK(is_same && fail_at > 6);
       break;
     }
     CHECK(status == SPANFILE_NO_MEMORY);
   }
-  for (int left = 0;; left++) {
-    m = (meter){.left = left};
+  for (int fail_at = 1;; fail_at++) {
+    m = (meter){.fail_at = fail_at};
     spanfile_status status = read_metered(&file, &m);
     CHECK(m.bytes == 0);
     if (status == SPANFILE_OK)
@@ -499,8 +481,8 @@ typedef struct joined {
   spanfile_status status;
 } joined;
 
-static joined join_strips(const picture *p, memory_file *strips, uint32_t count, int allocations) {
-  joined out = {.meter = {.left = allocations}};
+static joined join_strips(const picture *p, memory_file *strips, uint32_t count, int fail_at) {
+  joined out = {.meter = {.fail_at = fail_at}};
   spanfile_writer_desc desc = desc_of(p);
   spanfile_joiner *joiner = NULL;
   desc.write = memory_write;
@@ -522,12 +504,12 @@ static joined join_strips(const picture *p, memory_file *strips, uint32_t count,
 }
 
 static void check_join(const picture *p, memory_file *strips, uint32_t count, memory_file whole) {
-  joined made = join_strips(p, strips, count, -1);
+  joined made = join_strips(p, strips, count, 0);
   CHECK(made.status == SPANFILE_OK && made.meter.peak < 1024 * 1024);
-  CHECK(made.file.size == whole.size && memcmp(made.file.bytes, whole.bytes, whole.size) == 0);
+  CHECK(memory_is_same(&made.file, &whole));
   free(made.file.bytes);
-  for (int left = 0; left < 3; left++) {
-    made = join_strips(p, strips, 1, left);
+  for (int fail_at = 1; fail_at <= 3; fail_at++) {
+    made = join_strips(p, strips, 1, fail_at);
     CHECK(made.status == SPANFILE_NO_MEMORY);
     free(made.file.bytes);
   }
@@ -544,9 +526,8 @@ static void check_damage(const picture *p, memory_file *strips, uint32_t count, 
     *byte ^= (unsigned char)(1 + random_below(&random, 255));
     if (i % 4 == 0)
       strips[which].size = at;
-    joined made = join_strips(p, strips, count, -1);
-    bool is_same =
-        made.file.size == whole.size && memcmp(made.file.bytes, whole.bytes, whole.size) == 0;
+    joined made = join_strips(p, strips, count, 0);
+    bool is_same = memory_is_same(&made.file, &whole);
     CHECK(made.status == SPANFILE_BAD_FILE || (made.status == SPANFILE_OK && is_same));
     CHECK(made.meter.peak < 1024 * 1024);
     free(made.file.bytes);
@@ -568,14 +549,14 @@ static void check_strips(uint64_t seed, uint32_t rows) {
   check_join(&p, strips, count, whole);
   check_damage(&p, strips, count, whole);
   if (count > 1) {
-    joined made = join_strips(&p, strips, count - 1, -1);
+    joined made = join_strips(&p, strips, count - 1, 0);
     CHECK(made.status == SPANFILE_BAD_ARGUMENT);
     free(made.file.bytes);
-    made = join_strips(&p, strips + 1, 1, -1);
+    made = join_strips(&p, strips + 1, 1, 0);
     CHECK(made.status == SPANFILE_BAD_FILE);
     free(made.file.bytes);
   }
-  joined made = join_strips(&p, &whole, 1, -1);
+  joined made = join_strips(&p, &whole, 1, 0);
   CHECK(made.status == SPANFILE_BAD_FILE);
   free(made.file.bytes);
   while (count > 0)
@@ -601,7 +582,7 @@ static void test_strips(void) {
 /* A few bytes that declare millions of pixels do not make the reader allocate memory for them. */
 static void test_claims(void) {
   memory_file file = write_slanted(4000000000u, 2, 3, 1);
-  meter m = {.left = -1};
+  meter m = {0};
   CHECK(read_metered(&file, &m) == SPANFILE_OK);
   size_t packets = 4000000000u / 32768; /* the packets of its two rows */
   CHECK(m.peak < 200 * 1024 + 2 * packets * 7 && file.size < 200000 + packets * 14);
@@ -611,13 +592,6 @@ static void test_claims(void) {
   free(file.bytes);
 }
 
-static bool refuse_write(void *user, const void *bytes, size_t size) {
-  (void)bytes;
-  size_t *left = user;
-  bool fits = size <= *left;
-  *left = fits ? *left - size : 0;
-  return fits;
-}
 static bool refuse_read(void *user, uint64_t offset, void *bytes, size_t size) {
   (void)user, (void)offset, (void)bytes, (void)size;
   return false;
@@ -655,7 +629,7 @@ static void test_misuse(void) {
 static void test_failing_calls(void) {
   size_t left = 100;
   spanfile_writer_desc desc = {
-      .width = 5, .height = 1, .format = SPANFILE_SRGB8, .write = refuse_write, .user = &left};
+      .width = 5, .height = 1, .format = SPANFILE_SRGB8, .write = failing_write, .user = &left};
   spanfile_writer *writer = NULL;
   CHECK(spanfile_writer_create(&desc, &writer) == SPANFILE_OK);
   CHECK(spanfile_writer_run(writer, 5, 1) == SPANFILE_OK);
