@@ -5,9 +5,8 @@
  * files alone, and some films, beginning with a byte of 0 to 3, like the fuzzer's inputs. */
 #include "support.h"
 
-static void put_drawn(const char *folder, int number, memory_file *file, uint32_t columns,
-                      uint32_t rows) {
-  planefile_plane *plane = read_plane(file);
+static void put_drawn(const char *folder, int number, const planefile_plane *plane,
+                      uint32_t columns, uint32_t rows) {
   planefile_view view = {.width = columns, .height = rows, .columns = columns, .rows = rows};
   planefile_cell *pixels = draw_view(plane, view);
   size_t count = (size_t)columns * rows;
@@ -18,7 +17,6 @@ static void put_drawn(const char *folder, int number, memory_file *file, uint32_
   put_numbered(folder, number, ".codes", -1, codes, 4 * count);
   free(codes);
   free(pixels);
-  planefile_plane_destroy(plane);
 }
 
 static const planefile_grid coarse = {1920, 1081}; /* where cells are codes */
@@ -37,12 +35,8 @@ static drawing make(int number, bool is_coded) {
 
 static memory_file make_film(int from, int end, bool is_coded) {
   memory_file file = {0};
-  planefile_writer_desc desc = {.width = 4,
-                                .height = 3,
-                                .write = memory_write,
-                                .user = &file,
-                                .frames_second = 12,
-                                .is_coded = is_coded};
+  planefile_writer_desc desc = writer_desc(&file, 12);
+  desc.is_coded = is_coded;
   if (is_coded)
     desc.grid = coarse;
   planefile_writer *writer = NULL;
@@ -69,12 +63,10 @@ static void put_input(const char *folder, int number) {
 
 static void put_plane(const char *folder, int number, uint32_t columns, uint32_t rows,
                       bool is_coded) {
-  drawing d = make(number, is_coded);
-  memory_file file = write_coded(&d.plane, is_coded);
-  put_numbered(folder, number, ".plane", -1, file.bytes, file.size);
-  put_drawn(folder, number, &file, columns, rows);
-  free(file.bytes);
-  drawing_free(&d);
+  written w = written_new(make(number, is_coded), is_coded);
+  put_numbered(folder, number, ".plane", -1, w.file.bytes, w.file.size);
+  put_drawn(folder, number, w.plane, columns, rows);
+  written_free(&w);
 }
 
 static void put_pictures(const char *folder) {

@@ -121,15 +121,10 @@ static inline drawing drawing_new(uint32_t shapes) {
 }
 
 static inline void drawing_free(drawing *d) {
-  free(d->points);
-  free(d->pieces);
-  free(d->chains);
-  free(d->borders);
-  free(d->cells);
-  free(d->programs);
-  free(d->steps);
-  free(d->axes);
-  free(d->stops);
+  void *arrays[] = {d->points,   d->pieces, d->chains, d->borders, d->cells,
+                    d->programs, d->steps,  d->axes,   d->stops};
+  for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
+    free(arrays[i]);
 }
 
 static inline planefile_cell random_colour(random_state *random, bool is_opaque) {
@@ -425,10 +420,16 @@ static inline void alter_drawing(drawing *d, random_state *random, bool is_opaqu
 
 /* ---------------------------------------------------------------- writing and reading them */
 
+/* frames_second: 0 for a plane. */
+static inline planefile_writer_desc writer_desc(memory_file *file, double frames_second) {
+  return (planefile_writer_desc){
+      .width = 4, .height = 3, .write = memory_write, .user = file, .frames_second = frames_second};
+}
+
 static inline memory_file write_coded(const planefile_band *plane, bool is_coded) {
   memory_file file = {0};
-  planefile_writer_desc desc = {
-      .width = 4, .height = 3, .write = memory_write, .user = &file, .is_coded = is_coded};
+  planefile_writer_desc desc = writer_desc(&file, 0);
+  desc.is_coded = is_coded;
   CHECK(planefile_write(&desc, plane) == PLANEFILE_OK);
   return file;
 }
@@ -446,6 +447,29 @@ static inline planefile_plane *read_plane(memory_file *file) {
   return plane;
 }
 
+/* A drawing, its file, and the plane that is read from the file. */
+typedef struct written {
+  drawing d;
+  memory_file file;
+  planefile_plane *plane;
+} written;
+
+static inline written written_new(drawing d, bool is_coded) {
+  written w = {.d = d, .file = write_coded(&d.plane, is_coded)};
+  w.plane = read_plane(&w.file);
+  return w;
+}
+
+static inline written random_written(uint64_t seed, uint32_t shapes, variety kind) {
+  return written_new(random_drawing(seed, shapes, kind), false);
+}
+
+static inline void written_free(written *w) {
+  planefile_plane_destroy(w->plane);
+  free(w->file.bytes);
+  drawing_free(&w->d);
+}
+
 /* The colours of a view, row by row; the caller frees them. */
 static inline planefile_cell *draw_view(const planefile_plane *plane, planefile_view view) {
   planefile_drawer *drawer = NULL;
@@ -461,6 +485,15 @@ static inline planefile_cell *draw_view(const planefile_plane *plane, planefile_
   }
   planefile_drawer_destroy(drawer);
   return out;
+}
+
+static inline bool draws_same(const planefile_plane *one, const planefile_plane *other,
+                              planefile_view view) {
+  planefile_cell *a = draw_view(one, view), *b = draw_view(other, view);
+  bool is_same = memcmp(a, b, (size_t)view.columns * view.rows * sizeof *a) == 0;
+  free(a);
+  free(b);
+  return is_same;
 }
 
 #endif

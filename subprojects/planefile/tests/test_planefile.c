@@ -76,26 +76,22 @@ static planefile_band with_pictures(const planefile_plane *plane, planefile_pict
 /* What is read is written as the same bytes, and has as many borders as were written. */
 static void test_round_trips(void) {
   for (uint64_t seed = 0; seed < 300; seed++) {
-    drawing d = random_drawing(seed, (uint32_t)(seed % 40), seed / 40 % 2 ? VARIED : FLAT);
-    memory_file file = write_plane(&d.plane);
-    planefile_plane *plane = read_plane(&file);
-    const planefile_band *band = planefile_plane_band(plane, 0);
-    planefile_info info = planefile_plane_info(plane);
+    written w = random_written(seed, (uint32_t)(seed % 40), seed / 40 % 2 ? VARIED : FLAT);
+    const planefile_band *band = planefile_plane_band(w.plane, 0);
+    planefile_info info = planefile_plane_info(w.plane);
     CHECK(info.width == 4 && info.height == 3 && info.band_count == 1);
-    CHECK(info.is_opaque == (seed % 3 == 0) || d.plane.cell_count < 3);
-    CHECK(band->border_count == d.plane.border_count);
+    CHECK(info.is_opaque == (seed % 3 == 0) || w.d.plane.cell_count < 3);
+    CHECK(band->border_count == w.d.plane.border_count);
     planefile_picture pictures[PICTURES];
-    const planefile_band whole = with_pictures(plane, pictures);
+    const planefile_band whole = with_pictures(w.plane, pictures);
     memory_file again = write_plane(&whole);
     planefile_plane *other = read_plane(&again);
-    CHECK(memory_is_same(&again, &file));
+    CHECK(memory_is_same(&again, &w.file));
     for (uint32_t i = 0; i < band->border_count; i++)
       CHECK(is_same_border(band, planefile_plane_band(other, 0), i));
     planefile_plane_destroy(other);
-    planefile_plane_destroy(plane);
     free(again.bytes);
-    free(file.bytes);
-    drawing_free(&d);
+    written_free(&w);
   }
 }
 
@@ -132,23 +128,20 @@ static void test_coded(void) {
   planefile_rounding *rounding = planefile_rounding_create(NULL, NULL);
   for (uint64_t seed = 0; seed < 60; seed++) {
     drawing d = random_drawing(seed, (uint32_t)(seed % 20), seed % 2 ? VARIED : FLAT);
-    memory_file file = write_coded(&d.plane, true);
-    planefile_plane *plane = read_plane(&file);
-    const planefile_band *band = planefile_plane_band(plane, 0);
-    CHECK(planefile_plane_info(plane).is_coded && band->border_count == d.plane.border_count);
+    written w = written_new(d, true);
+    const planefile_band *band = planefile_plane_band(w.plane, 0);
+    planefile_info info = planefile_plane_info(w.plane);
+    CHECK(info.is_coded && band->border_count == d.plane.border_count);
     for (uint32_t i = 0; i < band->cell_count; i++) {
       planefile_cell near = planefile_round(rounding, band->cells[i]);
       CHECK(memcmp(&near, &band->cells[i], sizeof near) == 0);
     }
-    if (planefile_plane_info(plane).picture_count ==
-        0) { /* their pixels are not read to be written */
+    if (info.picture_count == 0) { /* their pixels are not read to be written */
       memory_file again = write_coded(band, true);
-      CHECK(memory_is_same(&again, &file));
+      CHECK(memory_is_same(&again, &w.file));
       free(again.bytes);
     }
-    planefile_plane_destroy(plane);
-    free(file.bytes);
-    drawing_free(&d);
+    written_free(&w);
   }
   planefile_rounding_destroy(rounding);
 }
@@ -201,11 +194,9 @@ static size_t lenses_size(int32_t apart, int32_t bent) {
                  side < 0 ? inside : 0);
     }
   }
-  memory_file file = write_plane(&d.plane);
-  size_t size = file.size;
-  planefile_plane_destroy(read_plane(&file));
-  free(file.bytes);
-  drawing_free(&d);
+  written w = written_new(d, false);
+  size_t size = w.file.size;
+  written_free(&w);
   return size;
 }
 
@@ -231,7 +222,7 @@ static void test_too_bright(void) {
     add_border(&d, chain, 0, PLANEFILE_SIDE, i % 2 ? bright : 0, i % 2 ? 0 : bright);
   }
   memory_file file = {0};
-  planefile_writer_desc desc = {.width = 4, .height = 3, .write = memory_write, .user = &file};
+  planefile_writer_desc desc = writer_desc(&file, 0);
   CHECK(planefile_write(&desc, &d.plane) == PLANEFILE_BAD_ARGUMENT);
   d.plane.border_count = 2000;
   CHECK(planefile_write(&desc, &d.plane) == PLANEFILE_OK);
@@ -312,18 +303,14 @@ static double find_worst(const planefile_band *plane, const planefile_cell *draw
 }
 
 static void check_drawn(uint64_t seed, uint32_t size, planefile_sampling sampling) {
-  drawing d = random_drawing(seed, 8, FLAT);
-  memory_file file = write_plane(&d.plane);
-  planefile_plane *plane = read_plane(&file);
+  written w = random_written(seed, 8, FLAT);
   planefile_view view = {size, size, 0, 0, size, size, sampling};
-  planefile_cell *drawn = draw_view(plane, view);
-  double *exact = draw_exactly(&d.plane, size, sampling == PLANEFILE_NONE ? 1 : 1024);
-  CHECK(find_worst(&d.plane, drawn, exact, (size_t)size * size) <= 0.5);
+  planefile_cell *drawn = draw_view(w.plane, view);
+  double *exact = draw_exactly(&w.d.plane, size, sampling == PLANEFILE_NONE ? 1 : 1024);
+  CHECK(find_worst(&w.d.plane, drawn, exact, (size_t)size * size) <= 0.5);
   free(exact);
   free(drawn);
-  planefile_plane_destroy(plane);
-  free(file.bytes);
-  drawing_free(&d);
+  written_free(&w);
 }
 
 static void test_drawn(void) {
@@ -366,16 +353,12 @@ static void check_deep(const planefile_plane *plane, random_state *random) {
 static void test_crops(void) {
   random_state random = {8};
   for (uint64_t seed = 0; seed < 40; seed++) {
-    drawing d = random_drawing(seed, 30, seed % 2 ? VARIED : FLAT);
-    memory_file file = write_plane(&d.plane);
-    planefile_plane *plane = read_plane(&file);
-    check_crops(plane, &random, PLANEFILE_AREA);
-    check_crops(plane, &random, PLANEFILE_NONE);
+    written w = random_written(seed, 30, seed % 2 ? VARIED : FLAT);
+    check_crops(w.plane, &random, PLANEFILE_AREA);
+    check_crops(w.plane, &random, PLANEFILE_NONE);
     for (int i = 0; i < 10; i++)
-      check_deep(plane, &random);
-    planefile_plane_destroy(plane);
-    free(file.bytes);
-    drawing_free(&d);
+      check_deep(w.plane, &random);
+    written_free(&w);
   }
 }
 
@@ -389,39 +372,32 @@ static void test_cells_are_exact(void) {
   uint32_t left = add_chain(&d, &random, heights, 2), right = add_chain(&d, &random, heights, 2);
   add_border(&d, left, 0, PLANEFILE_SIDE, 0, 1);
   add_border(&d, right, 0, PLANEFILE_SIDE, 1, 2);
-  memory_file file = write_plane(&d.plane);
-  planefile_plane *plane = read_plane(&file);
+  written w = written_new(d, false);
   planefile_view view = {3000, 64, 2999, 0, 1, 64, PLANEFILE_AREA};
-  planefile_cell *drawn = draw_view(plane, view);
+  planefile_cell *drawn = draw_view(w.plane, view);
   for (int y = 0; y < 64; y++)
     CHECK(memcmp(&drawn[y], &d.cells[2], sizeof *drawn) == 0 || d.points[0].x > 60 << 20);
   free(drawn);
-  planefile_plane_destroy(plane);
-  free(file.bytes);
-  drawing_free(&d);
+  written_free(&w);
 }
 
 static void test_codes(void) {
-  drawing d = random_drawing(0, 1, FLAT);
-  memory_file file = write_plane(&d.plane);
-  planefile_plane *plane = read_plane(&file);
+  written w = random_written(0, 1, FLAT);
   for (int code = 0; code < 256; code++) {
     double s = code / 255.0, linear = s <= 0.04045 ? s / 12.92 : pow((s + 0.055) / 1.055, 2.4);
     int32_t grey = (int32_t)(linear * PLANEFILE_WHITE + 0.5);
     unsigned char out[4];
-    planefile_srgb8(plane, (planefile_cell){{grey, grey, grey, PLANEFILE_WHITE}}, out);
+    planefile_srgb8(w.plane, (planefile_cell){{grey, grey, grey, PLANEFILE_WHITE}}, out);
     CHECK(out[0] == code && out[1] == code && out[2] == code && out[3] == 255);
-    planefile_srgb8(plane, (planefile_cell){{grey / 2, -grey, grey, PLANEFILE_WHITE / 2}}, out);
+    planefile_srgb8(w.plane, (planefile_cell){{grey / 2, -grey, grey, PLANEFILE_WHITE / 2}}, out);
     CHECK(abs(out[0] - code) <= (code < 16 ? 1 : 0) && out[1] == 0 && out[3] == 127);
   }
   unsigned char out[4] = {1, 1, 1, 1};
-  planefile_srgb8(plane, (planefile_cell){{9, 9, 9, 0}}, out);
+  planefile_srgb8(w.plane, (planefile_cell){{9, 9, 9, 0}}, out);
   CHECK(out[0] == 0 && out[3] == 0);
-  planefile_srgb8(plane, (planefile_cell){{1 << 24, 0, 0, 1 << 24}}, out);
+  planefile_srgb8(w.plane, (planefile_cell){{1 << 24, 0, 0, 1 << 24}}, out);
   CHECK(out[0] == 255 && out[3] == 255);
-  planefile_plane_destroy(plane);
-  free(file.bytes);
-  drawing_free(&d);
+  written_free(&w);
 }
 
 /* ---------------------------------------------------------------- bands */
@@ -443,47 +419,33 @@ static void check_part(memory_file *file, const planefile_cell *all, uint32_t si
   planefile_plane_destroy(plane);
 }
 
-/* A plane of many bands is that of one; a part of its heights needs only some of its bytes. */
-static void test_bands(void) {
-  enum { SIZE = 128 };
-  drawing d = random_drawing(5, 6000, FLAT);
-  memory_file file = write_plane(&d.plane);
-  planefile_plane *plane = read_plane(&file);
-  CHECK(planefile_plane_info(plane).band_count > 3);
-  planefile_view view = {SIZE, SIZE, 0, 0, SIZE, SIZE, PLANEFILE_AREA};
-  planefile_cell *all = draw_view(plane, view);
-  double *exact = draw_exactly(&d.plane, SIZE, 1);
+/* Nearly all pixels have the colour at their centre. */
+static void check_centres(const written *w, planefile_view view) {
+  size_t same = 0, pixels = (size_t)view.columns * view.rows;
   view.sampling = PLANEFILE_NONE;
-  planefile_cell *centres = draw_view(plane, view);
-  size_t same = 0;
-  for (size_t i = 0; i < SIZE * SIZE; i++)
-    same += fabs(centres[i].colour[0] - exact[4 * i] - d.cells[0].colour[0]) < 0.5;
-  CHECK(same > SIZE * SIZE * 98 / 100);
-  for (uint32_t y = 0; y + 8 <= SIZE; y += 24)
-    check_part(&file, all, SIZE, y, 8);
+  planefile_cell *centres = draw_view(w->plane, view);
+  double *exact = draw_exactly(&w->d.plane, view.rows, 1);
+  for (size_t i = 0; i < pixels; i++)
+    same += fabs(centres[i].colour[0] - exact[4 * i] - w->d.cells[0].colour[0]) < 0.5;
+  CHECK(same > pixels * 98 / 100);
   free(exact);
   free(centres);
-  free(all);
-  planefile_plane_destroy(plane);
-  free(file.bytes);
-  drawing_free(&d);
 }
 
-/* The same where cells vary. */
-static void test_varied_bands(void) {
+/* A plane of many bands is that of one; a part of its heights needs only some of its bytes. */
+static void check_bands(uint64_t seed, variety kind) {
   enum { SIZE = 128 };
-  drawing d = random_drawing(6, 6000, VARIED);
-  memory_file file = write_plane(&d.plane);
-  planefile_plane *plane = read_plane(&file);
-  CHECK(planefile_plane_info(plane).band_count > 3 && planefile_plane_info(plane).varies);
+  written w = random_written(seed, 6000, kind);
+  planefile_info info = planefile_plane_info(w.plane);
+  CHECK(info.band_count > 3 && info.varies == (kind == VARIED));
   planefile_view view = {SIZE, SIZE, 0, 0, SIZE, SIZE, PLANEFILE_AREA};
-  planefile_cell *all = draw_view(plane, view);
+  planefile_cell *all = draw_view(w.plane, view);
+  if (kind == FLAT)
+    check_centres(&w, view);
   for (uint32_t y = 0; y + 8 <= SIZE; y += 24)
-    check_part(&file, all, SIZE, y, 8);
+    check_part(&w.file, all, SIZE, y, 8);
   free(all);
-  planefile_plane_destroy(plane);
-  free(file.bytes);
-  drawing_free(&d);
+  written_free(&w);
 }
 
 /* ---------------------------------------------------------------- tiles */
@@ -507,9 +469,8 @@ static bool is_plain(const planefile_plane *plane, const planefile_view *tile) {
  * nor for chains beside it. */
 static void test_plain_tiles(void) {
   enum { SIZE = 1 << 20, SIDE = 256 };
-  drawing d = random_drawing(7, 40, FLAT);
-  memory_file file = write_plane(&d.plane);
-  planefile_source source = memory_source(&file);
+  written w = random_written(7, 40, FLAT);
+  planefile_source source = memory_source(&w.file);
   planefile_plane *plane;
   random_state random = {11};
   meter m = {0};
@@ -528,8 +489,7 @@ static void test_plain_tiles(void) {
   }
   CHECK(plain > 90 && small > plain / 2 && large < plain / 2);
   planefile_plane_destroy(plane);
-  free(file.bytes);
-  drawing_free(&d);
+  written_free(&w);
 }
 
 /* ---------------------------------------------------------------- pixels */
@@ -538,9 +498,7 @@ static void test_plain_tiles(void) {
  */
 static void test_span_pixels(void) {
   enum { COUNT = 700, PIXELS = COUNT * (COUNT + 1) / 2 };
-  drawing d = random_drawing(3, 20, FLAT);
-  memory_file file = write_plane(&d.plane);
-  planefile_plane *plane = read_plane(&file);
+  written w = random_written(3, 20, FLAT);
   planefile_span *spans = calloc(COUNT, sizeof *spans);
   unsigned char *room = malloc(4 * PIXELS + 4);
   for (uint32_t i = 0, end = 0; i < COUNT; i++) {
@@ -551,10 +509,10 @@ static void test_span_pixels(void) {
   for (int shift = 0; shift < 4; shift++) {
     size_t wrong = 0;
     memset(room, 77, 4 * PIXELS + 4);
-    planefile_span_pixels(plane, spans, COUNT, room + shift);
+    planefile_span_pixels(w.plane, spans, COUNT, room + shift);
     for (uint32_t i = 0, x = 0; i < COUNT; i++) {
       unsigned char pixel[4];
-      planefile_srgb8(plane, spans[i].colour, pixel);
+      planefile_srgb8(w.plane, spans[i].colour, pixel);
       for (; x < spans[i].end; x++)
         wrong += memcmp(room + shift + 4 * (size_t)x, pixel, 4) != 0;
     }
@@ -564,9 +522,7 @@ static void test_span_pixels(void) {
   }
   free(room);
   free(spans);
-  planefile_plane_destroy(plane);
-  free(file.bytes);
-  drawing_free(&d);
+  written_free(&w);
 }
 
 /* ---------------------------------------------------------------- damage */
@@ -582,19 +538,17 @@ static bool is_refused(memory_file *file, const char *reason) {
 }
 
 static void check_every_byte(variety kind) {
-  drawing d = random_drawing(4, 6, kind);
-  memory_file file = write_plane(&d.plane);
-  size_t size = file.size;
+  written w = random_written(4, 6, kind);
+  size_t size = w.file.size;
   for (size_t i = 0; i < size; i++) {
-    file.bytes[i] ^= (unsigned char)(1 + i % 255);
-    CHECK(is_refused(&file, NULL));
-    file.bytes[i] ^= (unsigned char)(1 + i % 255);
-    file.size = i;
-    CHECK(is_refused(&file, NULL));
-    file.size = size;
+    w.file.bytes[i] ^= (unsigned char)(1 + i % 255);
+    CHECK(is_refused(&w.file, NULL));
+    w.file.bytes[i] ^= (unsigned char)(1 + i % 255);
+    w.file.size = i;
+    CHECK(is_refused(&w.file, NULL));
+    w.file.size = size;
   }
-  free(file.bytes);
-  drawing_free(&d);
+  written_free(&w);
 }
 
 /* Changes of the numbers before the code of the first band, and why they are refused. */
@@ -624,39 +578,35 @@ static void test_reasons(void) {
 }
 
 static void test_ends(void) {
-  drawing d = random_drawing(4, 6, FLAT);
-  memory_file file = write_plane(&d.plane);
-  CHECK(planefile_is(file.bytes, PLANEFILE_MAGIC_BYTES) && !planefile_is(file.bytes, 7));
-  pf_store_32(file.bytes + 8, 1);
-  pf_store_32(file.bytes + 36, pf_crc32c(0, file.bytes, 36));
-  CHECK(is_refused(&file, "the plane file has another version: 1"));
-  mend_sums(&file);
-  CHECK(!is_refused(&file, NULL));
-  pf_store_double(file.bytes + 16, -1);
-  mend_sums(&file);
-  CHECK(is_refused(&file, "the header has a value that is not allowed"));
-  free(file.bytes);
-  drawing_free(&d);
+  written w = random_written(4, 6, FLAT);
+  CHECK(planefile_is(w.file.bytes, PLANEFILE_MAGIC_BYTES) && !planefile_is(w.file.bytes, 7));
+  pf_store_32(w.file.bytes + 8, 1);
+  pf_store_32(w.file.bytes + 36, pf_crc32c(0, w.file.bytes, 36));
+  CHECK(is_refused(&w.file, "the plane file has another version: 1"));
+  mend_sums(&w.file);
+  CHECK(!is_refused(&w.file, NULL));
+  pf_store_double(w.file.bytes + 16, -1);
+  mend_sums(&w.file);
+  CHECK(is_refused(&w.file, "the header has a value that is not allowed"));
+  written_free(&w);
 }
 
 /* Any byte of the code may be any other: then the plane is another one, or it is refused. */
 static void test_altered_code(void) {
   for (uint64_t seed = 0; seed < 6; seed++) {
-    drawing d = random_drawing(seed, 5, seed % 2 ? VARIED : FLAT);
-    memory_file file = write_plane(&d.plane);
-    for (size_t i = PF_HEADER_BYTES; i + PF_TRAILER_BYTES < file.size; i++) {
-      unsigned char kept = file.bytes[i];
+    written w = random_written(seed, 5, seed % 2 ? VARIED : FLAT);
+    for (size_t i = PF_HEADER_BYTES; i + PF_TRAILER_BYTES < w.file.size; i++) {
+      unsigned char kept = w.file.bytes[i];
       planefile_plane *plane = NULL;
-      planefile_source source = memory_source(&file);
-      file.bytes[i] ^= 0x55;
-      mend_sums(&file);
+      planefile_source source = memory_source(&w.file);
+      w.file.bytes[i] ^= 0x55;
+      mend_sums(&w.file);
       if (planefile_read(&source, 0, PLANEFILE_SIDE, &plane, NULL) == PLANEFILE_OK)
         free(draw_view(plane, (planefile_view){20, 20, 0, 0, 20, 20, PLANEFILE_AREA}));
       planefile_plane_destroy(plane);
-      file.bytes[i] = kept;
+      w.file.bytes[i] = kept;
     }
-    free(file.bytes);
-    drawing_free(&d);
+    written_free(&w);
   }
 }
 
@@ -664,7 +614,8 @@ static void test_altered_code(void) {
 
 static planefile_status write_status(const planefile_band *plane, double width) {
   memory_file file = {0};
-  planefile_writer_desc desc = {.width = width, .height = 3, .write = memory_write, .user = &file};
+  planefile_writer_desc desc = writer_desc(&file, 0);
+  desc.width = width;
   planefile_status status = planefile_write(&desc, plane);
   free(file.bytes);
   return status;
@@ -759,27 +710,25 @@ static void test_depth(void) {
 }
 
 static void test_bad_views(void) {
-  drawing d = random_drawing(2, 4, FLAT);
-  memory_file file = write_plane(&d.plane);
-  planefile_plane *plane = read_plane(&file);
+  written w = random_written(2, 4, FLAT);
   const planefile_view views[] = {{0, 1, 0, 0, 1, 1, 0}, {9, 9, 9, 0, 1, 1, 0},
                                   {9, 9, 0, 0, 0, 1, 0}, {9, 9, 4, 0, 6, 1, 0},
                                   {9, 9, 0, 4, 1, 6, 0}, {UINT32_MAX, 9, 0, 0, 1, 1, 0}};
   planefile_drawer *drawer;
   for (size_t i = 0; i < sizeof views / sizeof *views; i++)
-    CHECK(planefile_drawer_create(plane, &views[i], &drawer) == PLANEFILE_BAD_ARGUMENT && !drawer);
+    CHECK(planefile_drawer_create(w.plane, &views[i], &drawer) == PLANEFILE_BAD_ARGUMENT &&
+          !drawer);
   planefile_view view = {9, 9, 0, 0, 9, 1, PLANEFILE_AREA};
   const planefile_span *spans;
   size_t count;
-  CHECK(planefile_drawer_create(plane, &view, &drawer) == PLANEFILE_OK);
+  CHECK(planefile_drawer_create(w.plane, &view, &drawer) == PLANEFILE_OK);
   CHECK(planefile_drawer_row(drawer, &spans, &count) == PLANEFILE_OK);
   CHECK(planefile_drawer_row(drawer, &spans, &count) == PLANEFILE_BAD_ARGUMENT);
   planefile_drawer_destroy(drawer);
-  planefile_plane_destroy(plane);
-  planefile_source source = memory_source(&file);
+  planefile_plane *plane;
+  planefile_source source = memory_source(&w.file);
   CHECK(planefile_read(&source, 5, 5, &plane, NULL) == PLANEFILE_BAD_ARGUMENT);
-  free(file.bytes);
-  drawing_free(&d);
+  written_free(&w);
 }
 
 /* ---------------------------------------------------------------- films */
@@ -788,8 +737,7 @@ enum { FRAMES = 24 };
 
 /* Frames of random drawings, some of them again and again. Returns how many differ. */
 static uint32_t write_film(memory_file *file, drawing drawings[FRAMES]) {
-  planefile_writer_desc desc = {
-      .width = 4, .height = 3, .write = memory_write, .user = file, .frames_second = 12.5};
+  planefile_writer_desc desc = writer_desc(file, 12.5);
   planefile_writer *writer;
   uint32_t count = 0;
   CHECK(planefile_writer_create(&desc, &writer) == PLANEFILE_OK);
@@ -804,6 +752,11 @@ static uint32_t write_film(memory_file *file, drawing drawings[FRAMES]) {
   CHECK(planefile_writer_end(writer) == PLANEFILE_OK);
   planefile_writer_destroy(writer);
   return count;
+}
+
+static void free_drawings(drawing drawings[FRAMES]) {
+  for (uint32_t i = 0; i < FRAMES; i++)
+    drawing_free(&drawings[i]);
 }
 
 static planefile_plane *read_frame(memory_file *file, uint32_t frame) {
@@ -825,10 +778,7 @@ static void check_frame(memory_file *film, uint32_t frame, const drawing *d) {
   CHECK(info.frame_count == FRAMES && info.frames_second == 12.5);
   CHECK(other.frame_count == 1 && other.frames_second == 0);
   CHECK(info.is_opaque == other.is_opaque && info.varies == other.varies && info.width == 4);
-  planefile_cell *a = draw_view(plane, view), *b = draw_view(alone, view);
-  CHECK(memcmp(a, b, (size_t)view.columns * view.rows * sizeof *a) == 0);
-  free(a);
-  free(b);
+  CHECK(draws_same(plane, alone, view));
   free(file.bytes);
   planefile_plane_destroy(alone);
   planefile_plane_destroy(plane);
@@ -847,8 +797,7 @@ static void test_films(void) {
     free(file.bytes);
   }
   CHECK(different == FRAMES / 4 && film.size < alone + 1024); /* each is there once */
-  for (uint32_t i = 0; i < FRAMES; i++)
-    drawing_free(&drawings[i]);
+  free_drawings(drawings);
   free(film.bytes);
 }
 
@@ -862,10 +811,7 @@ static void check_next(memory_file *film, uint64_t seed) {
     frame = (frame + random_below(&random, 3)) % FRAMES;
     planefile_plane *alone = read_frame(film, frame);
     CHECK(planefile_read_next(&source, frame, &plane, NULL) == PLANEFILE_OK);
-    planefile_cell *a = draw_view(plane, view), *b = draw_view(alone, view);
-    CHECK(memcmp(a, b, (size_t)view.columns * view.rows * sizeof *a) == 0);
-    free(a);
-    free(b);
+    CHECK(draws_same(plane, alone, view));
     planefile_plane_destroy(alone);
   }
   CHECK(planefile_read_next(&source, FRAMES, &plane, NULL) == PLANEFILE_BAD_ARGUMENT);
@@ -912,8 +858,7 @@ static void check_altered_film(memory_file *film, uint64_t seed) {
 /* A film whose frames are made from each other. */
 static memory_file write_changing(uint64_t seed, drawing drawings[FRAMES]) {
   memory_file file = {0};
-  planefile_writer_desc desc = {
-      .width = 4, .height = 3, .write = memory_write, .user = &file, .frames_second = 12.5};
+  planefile_writer_desc desc = writer_desc(&file, 12.5);
   desc.grid = (planefile_grid){seed % 4 == 1 ? 1920 : 0, seed % 4 == 1 ? 1081 : 0};
   planefile_writer *writer;
   random_state random = {seed};
@@ -957,8 +902,7 @@ static void test_changing_films(void) {
     CHECK(film.size < alone / 4 * 3);
     for (uint32_t i = 0; i < 100; i++)
       check_altered_film(&film, seed * 100 + i);
-    for (uint32_t i = 0; i < FRAMES; i++)
-      drawing_free(&drawings[i]);
+    free_drawings(drawings);
     free(film.bytes);
   }
 }
@@ -987,8 +931,8 @@ static void test_grids(void) {
   for (size_t i = 0; i < sizeof grids / sizeof *grids; i++) {
     memory_file file = {0};
     drawing d = random_drawing(4, 6, FLAT);
-    planefile_writer_desc desc = {
-        .width = 4, .height = 3, .write = memory_write, .user = &file, .grid = grids[i]};
+    planefile_writer_desc desc = writer_desc(&file, 0);
+    desc.grid = grids[i];
     CHECK(planefile_write(&desc, &d.plane) == PLANEFILE_BAD_ARGUMENT);
     coarsen_drawing(&d, grids[i]);
     CHECK(planefile_write(&desc, &d.plane) == PLANEFILE_OK);
@@ -1022,7 +966,7 @@ static void test_bad_films(void) {
   check_film_fault(&one, 1, PLANEFILE_BAD_ARGUMENT, "it has no frame 1");
   for (uint32_t i = 0; i < 400; i++)
     check_altered_film(&one, i);
-  planefile_writer_desc desc = {.width = 4, .height = 3, .write = memory_write, .user = &one};
+  planefile_writer_desc desc = writer_desc(&one, 0);
   planefile_writer *writer;
   CHECK(planefile_writer_create(&desc, &writer) == PLANEFILE_OK);
   CHECK(planefile_writer_end(writer) == PLANEFILE_BAD_ARGUMENT);
@@ -1033,8 +977,7 @@ static void test_bad_films(void) {
   planefile_writer_destroy(writer);
   desc.frames_second = -1;
   CHECK(planefile_writer_create(&desc, &writer) == PLANEFILE_BAD_ARGUMENT);
-  for (uint32_t i = 0; i < FRAMES; i++)
-    drawing_free(&drawings[i]);
+  free_drawings(drawings);
   free(one.bytes);
   free(film.bytes);
 }
@@ -1069,14 +1012,10 @@ static planefile_status write_frames(const planefile_writer_desc *desc,
 static planefile_status write_and_draw(const planefile_band from[2], double frames_second,
                                        meter *m) {
   memory_file file = {0};
-  planefile_writer_desc desc = {.width = 4,
-                                .height = 3,
-                                .write = memory_write,
-                                .user = &file,
-                                .resize = metered,
-                                .resize_user = m,
-                                .frames_second = frames_second,
-                                .is_coded = true};
+  planefile_writer_desc desc = writer_desc(&file, frames_second);
+  desc.resize = metered;
+  desc.resize_user = m;
+  desc.is_coded = true;
   planefile_plane *plane = NULL;
   planefile_status status = write_frames(&desc, from, frames_second > 0 ? 3 : 1);
   planefile_source source = memory_source(&file);
@@ -1115,19 +1054,17 @@ static void check_no_memory(double frames_second, variety kind) {
 }
 
 static void test_no_output(void) {
-  drawing d = random_drawing(4, 3, FLAT);
-  memory_file file = write_plane(&d.plane);
-  for (size_t room = 0; room < file.size; room += 7) {
+  written w = random_written(4, 3, FLAT);
+  for (size_t room = 0; room < w.file.size; room += 7) {
     size_t left = room;
     planefile_writer_desc desc = {.width = 4, .height = 3, .write = failing_write, .user = &left};
-    CHECK(planefile_write(&desc, &d.plane) == PLANEFILE_WRITE_FAILED);
+    CHECK(planefile_write(&desc, &w.d.plane) == PLANEFILE_WRITE_FAILED);
   }
   planefile_plane *plane;
-  planefile_source source = memory_source(&file);
+  planefile_source source = memory_source(&w.file);
   source.size++; /* than there is */
   CHECK(planefile_read(&source, 0, PLANEFILE_SIDE, &plane, NULL) == PLANEFILE_READ_FAILED);
-  free(file.bytes);
-  drawing_free(&d);
+  written_free(&w);
 }
 
 int main(void) {
@@ -1143,8 +1080,8 @@ int main(void) {
   test_crops();
   test_cells_are_exact();
   test_codes();
-  test_bands();
-  test_varied_bands();
+  check_bands(5, FLAT);
+  check_bands(6, VARIED);
   test_plain_tiles();
   test_span_pixels();
   check_every_byte(FLAT);

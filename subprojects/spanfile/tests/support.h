@@ -106,12 +106,17 @@ static inline picture random_picture(uint64_t seed, uint32_t most_width, uint32_
 
 /* ---------------------------------------------------------------- writing them */
 
+/* file: NULL for a part of a file. */
+static inline spanfile_writer_desc writer_desc(const picture *p, memory_file *file) {
+  return (spanfile_writer_desc){.width = p->width,
+                                .height = p->height,
+                                .format = p->format,
+                                .write = file ? memory_write : NULL,
+                                .user = file};
+}
+
 static inline spanfile_writer *open_writer(const picture *p, memory_file *file) {
-  spanfile_writer_desc desc = {.width = p->width,
-                               .height = p->height,
-                               .format = p->format,
-                               .write = memory_write,
-                               .user = file};
+  spanfile_writer_desc desc = writer_desc(p, file);
   spanfile_writer *writer = NULL;
   CHECK(spanfile_writer_create(&desc, &writer) == SPANFILE_OK);
   return writer;
@@ -166,15 +171,45 @@ static inline void write_row(random_state *random, spanfile_writer *writer, cons
   CHECK(spanfile_writer_row(writer) == SPANFILE_OK);
 }
 
+static inline void finish_writer(spanfile_writer *writer) {
+  CHECK(spanfile_writer_finish(writer) == SPANFILE_OK);
+  spanfile_writer_destroy(writer);
+}
+
 static inline memory_file write_picture(const picture *p, uint64_t seed) {
   memory_file file = {0};
   random_state random = {seed};
   spanfile_writer *writer = open_writer(p, &file);
   for (uint32_t y = 0; y < p->height; y++)
     write_row(&random, writer, p, y);
-  CHECK(spanfile_writer_finish(writer) == SPANFILE_OK);
-  spanfile_writer_destroy(writer);
+  finish_writer(writer);
   return file;
+}
+
+/* A picture, its file, and a reader of the file. */
+typedef struct written {
+  picture p;
+  memory_file file;
+  spanfile_reader *reader;
+} written;
+
+static inline spanfile_reader *open_reader(memory_file *file) {
+  spanfile_reader *reader = NULL;
+  spanfile_source source = memory_source(file);
+  CHECK(spanfile_reader_create(&source, &reader, NULL) == SPANFILE_OK);
+  return reader;
+}
+
+static inline void written_open(written *w, picture p, uint64_t seed) {
+  w->p = p;
+  w->file = write_picture(&p, seed);
+  w->reader = open_reader(&w->file);
+}
+
+static inline void written_free(written *w) {
+  spanfile_reader_destroy(w->reader);
+  free(w->file.bytes);
+  free(w->p.pixels);
 }
 
 #endif

@@ -20,30 +20,25 @@ static bool has_pixels(spanfile_reader *reader, const picture *p, uint32_t y) {
   return is_same;
 }
 
-static spanfile_reader *open_reader(memory_file *file) {
-  spanfile_reader *reader = NULL;
-  spanfile_source source = memory_source(file);
-  CHECK(spanfile_reader_create(&source, &reader, NULL) == SPANFILE_OK);
-  return reader;
+static void check_rows(const written *w) {
+  for (uint32_t y = 0; y < w->p.height; y++)
+    CHECK(has_pixels(w->reader, &w->p, y));
 }
 
 static void check_round_trip(uint64_t seed, uint32_t most_width, uint32_t most_height) {
   picture p = random_picture(seed, most_width, most_height);
-  memory_file file = write_picture(&p, seed);
-  spanfile_reader *reader = open_reader(&file);
-  spanfile_info info = spanfile_reader_info(reader);
+  written w;
+  written_open(&w, p, seed);
+  spanfile_info info = spanfile_reader_info(w.reader);
   CHECK(info.width == p.width && info.height == p.height && info.format == p.format);
-  for (uint32_t y = 0; y < p.height; y++)
-    CHECK(has_pixels(reader, &p, y));
+  check_rows(&w);
   random_state random = {seed};
   for (int i = 0; i < 20; i++)
-    CHECK(has_pixels(reader, &p, random_below(&random, p.height)));
+    CHECK(has_pixels(w.reader, &p, random_below(&random, p.height)));
   spanfile_counts counts;
-  CHECK(spanfile_reader_check(reader, &counts, NULL) == SPANFILE_OK);
+  CHECK(spanfile_reader_check(w.reader, &counts, NULL) == SPANFILE_OK);
   CHECK(counts.literal_rows + counts.moved_rows + counts.same_rows == p.height);
-  spanfile_reader_destroy(reader);
-  free(file.bytes);
-  free(p.pixels);
+  written_free(&w);
 }
 
 static void test_round_trips(void) {
@@ -80,48 +75,47 @@ static void test_counts(void) {
         else
           spanfile_gradient_pixels(p.format, ends, length, 0, length, at);
       }
-      memory_file file = write_picture(&p, i);
-      spanfile_reader *reader = open_reader(&file);
-      for (uint32_t y = 0; y < p.height; y++)
-        CHECK(has_pixels(reader, &p, y));
-      spanfile_reader_destroy(reader);
-      free(file.bytes);
-      free(p.pixels);
+      written w;
+      written_open(&w, p, i);
+      check_rows(&w);
+      written_free(&w);
     }
 }
 
 /* Any part of a row equals that part of the whole row. */
 static void test_parts_of_rows(void) {
   picture p = random_picture(11, 300, 30);
-  memory_file file = write_picture(&p, 1);
-  spanfile_reader *reader = open_reader(&file);
+  written w;
+  written_open(&w, p, 1);
   random_state random = {5};
   unsigned char *pixels = malloc(p.width * p.pixel_size);
   for (int i = 0; i < 500; i++) {
     uint32_t y = random_below(&random, p.height), x0 = random_below(&random, p.width);
     uint32_t x1 = x0 + random_below(&random, p.width - x0 + 1);
     spanfile_row row;
-    CHECK(spanfile_reader_row(reader, y, &row, NULL) == SPANFILE_OK);
+    CHECK(spanfile_reader_row(w.reader, y, &row, NULL) == SPANFILE_OK);
     spanfile_row_pixels(p.format, &row, x0, x1, pixels);
     CHECK(memcmp(pixels, picture_row(&p, y) + x0 * p.pixel_size, (x1 - x0) * p.pixel_size) == 0);
   }
   free(pixels);
-  spanfile_reader_destroy(reader);
-  free(file.bytes);
-  free(p.pixels);
+  written_free(&w);
 }
 
 /* ---------------------------------------------------------------- parts of a file */
-
-static spanfile_writer_desc desc_of(const picture *p) {
-  return (spanfile_writer_desc){.width = p->width, .height = p->height, .format = p->format};
-}
 
 static void put_rows(spanfile_writer *writer, const picture *p, uint32_t first, uint32_t count) {
   for (uint32_t y = first; y < p->height && y < first + count; y++) {
     CHECK(spanfile_writer_pixels(writer, picture_row(p, y), p->width) == SPANFILE_OK);
     CHECK(spanfile_writer_row(writer) == SPANFILE_OK);
   }
+}
+
+static memory_file write_whole(const picture *p) {
+  memory_file file = {0};
+  spanfile_writer *writer = open_writer(p, &file);
+  put_rows(writer, p, 0, p->height);
+  finish_writer(writer);
+  return file;
 }
 
 static void put_part(spanfile_writer *part, const picture *p, uint32_t first) {
@@ -135,7 +129,7 @@ static memory_file write_parts(const picture *p, bool has_own) {
   enum { MOST = 20 };
   memory_file file = {0};
   spanfile_writer *writer = open_writer(p, &file), *parts[MOST] = {NULL};
-  spanfile_writer_desc desc = desc_of(p);
+  spanfile_writer_desc desc = writer_desc(p, NULL);
   uint32_t count = (p->height - 1) / SPANFILE_PART_ROWS + 1;
   for (uint32_t i = count; i-- > 0 && has_own;) {
     CHECK(spanfile_writer_create_part(&desc, &parts[i]) == SPANFILE_OK);
@@ -150,19 +144,14 @@ static memory_file write_parts(const picture *p, bool has_own) {
       put_part(part, p, i * SPANFILE_PART_ROWS);
     CHECK(spanfile_writer_join(writer, part) == SPANFILE_OK);
   }
-  CHECK(spanfile_writer_finish(writer) == SPANFILE_OK);
-  spanfile_writer_destroy(writer);
+  finish_writer(writer);
   for (uint32_t i = 0; i < count; i++)
     spanfile_writer_destroy(parts[i]);
   return file;
 }
 
 static void check_parts(const picture *p) {
-  memory_file whole = {0};
-  spanfile_writer *writer = open_writer(p, &whole);
-  put_rows(writer, p, 0, p->height);
-  CHECK(spanfile_writer_finish(writer) == SPANFILE_OK);
-  spanfile_writer_destroy(writer);
+  memory_file whole = write_whole(p);
   for (int i = 0; i < 2; i++) {
     memory_file joined = write_parts(p, i == 1);
     CHECK(memory_is_same(&whole, &joined));
@@ -184,7 +173,7 @@ static void test_parts(void) {
 static void test_parts_misuse(void) {
   memory_file file = {0};
   picture p = random_picture(44, 60, 3000);
-  spanfile_writer_desc desc = desc_of(&p);
+  spanfile_writer_desc desc = writer_desc(&p, NULL);
   spanfile_writer *writer = open_writer(&p, &file), *part;
   CHECK(p.height > SPANFILE_PART_ROWS);
   CHECK(spanfile_writer_create_part(&desc, &part) == SPANFILE_OK);
@@ -222,8 +211,7 @@ static memory_file write_slanted(uint32_t width, uint32_t height, uint32_t spans
     }
     CHECK(spanfile_writer_row(writer) == SPANFILE_OK);
   }
-  CHECK(spanfile_writer_finish(writer) == SPANFILE_OK);
-  spanfile_writer_destroy(writer);
+  finish_writer(writer);
   return file;
 }
 
@@ -356,8 +344,7 @@ static void test_tall(void) {
     spanfile_writer_run(writer, 30000 - y % 9000, 0xff00ff00 + y / 100000);
     spanfile_writer_row(writer);
   }
-  CHECK(spanfile_writer_finish(writer) == SPANFILE_OK);
-  spanfile_writer_destroy(writer);
+  finish_writer(writer);
   spanfile_reader *reader = open_reader(&file);
   spanfile_row row;
   random_state random = {1};
@@ -377,25 +364,19 @@ static void test_wide(void) {
   p.pixels = malloc((size_t)p.width * p.height * 8);
   for (size_t i = 0; i < (size_t)p.width * p.height; i++)
     random_pixel(&random, &p, p.pixels + 8 * i);
-  memory_file file = write_picture(&p, 1);
-  spanfile_reader *reader = open_reader(&file);
+  written w;
+  written_open(&w, p, 1);
   for (uint32_t y = p.height; y-- > 0;)
-    CHECK(has_pixels(reader, &p, y));
-  spanfile_reader_destroy(reader);
-  free(file.bytes);
-  free(p.pixels);
+    CHECK(has_pixels(w.reader, &p, y));
+  written_free(&w);
 }
 
 /* ---------------------------------------------------------------- memory, misuse, failing calls */
 
 static spanfile_status write_metered(const picture *p, memory_file *file, meter *m) {
-  spanfile_writer_desc desc = {.width = p->width,
-                               .height = p->height,
-                               .format = p->format,
-                               .write = memory_write,
-                               .user = file,
-                               .resize = metered,
-                               .resize_user = m};
+  spanfile_writer_desc desc = writer_desc(p, file);
+  desc.resize = metered;
+  desc.resize_user = m;
   spanfile_writer *writer = NULL;
   spanfile_status status = spanfile_writer_create(&desc, &writer);
   for (uint32_t y = 0; y < p->height && status == SPANFILE_OK; y++) {
@@ -461,17 +442,14 @@ static void test_memory(void) {
 
 static memory_file write_strip(const picture *p, uint32_t first, uint32_t count) {
   memory_file file = {0};
-  spanfile_writer_desc desc = desc_of(p);
+  spanfile_writer_desc desc = writer_desc(p, &file);
   desc.height = p->height - first < count ? p->height - first : count;
   desc.strip_row = first;
   desc.strip_height = p->height;
-  desc.write = memory_write;
-  desc.user = &file;
   spanfile_writer *writer;
   CHECK(spanfile_writer_create(&desc, &writer) == SPANFILE_OK);
   put_rows(writer, p, first, desc.height);
-  CHECK(spanfile_writer_finish(writer) == SPANFILE_OK);
-  spanfile_writer_destroy(writer);
+  finish_writer(writer);
   return file;
 }
 
@@ -483,10 +461,8 @@ typedef struct joined {
 
 static joined join_strips(const picture *p, memory_file *strips, uint32_t count, int fail_at) {
   joined out = {.meter = {.fail_at = fail_at}};
-  spanfile_writer_desc desc = desc_of(p);
+  spanfile_writer_desc desc = writer_desc(p, &out.file);
   spanfile_joiner *joiner = NULL;
-  desc.write = memory_write;
-  desc.user = &out.file;
   desc.resize = metered;
   desc.resize_user = &out.meter;
   out.status = spanfile_joiner_create(&desc, &joiner);
@@ -538,12 +514,8 @@ static void check_damage(const picture *p, memory_file *strips, uint32_t count, 
 
 static void check_strips(uint64_t seed, uint32_t rows) {
   picture p = random_picture(seed, seed % 3 == 0 ? 4000 : 60, 3000);
-  memory_file strips[12] = {{0}}, whole = {0};
+  memory_file strips[12] = {{0}}, whole = write_whole(&p);
   uint32_t count = 0;
-  spanfile_writer *writer = open_writer(&p, &whole);
-  put_rows(writer, &p, 0, p.height);
-  CHECK(spanfile_writer_finish(writer) == SPANFILE_OK);
-  spanfile_writer_destroy(writer);
   for (uint32_t y = 0; y < p.height; y += rows)
     strips[count++] = write_strip(&p, y, rows);
   check_join(&p, strips, count, whole);
