@@ -7,7 +7,6 @@
 local celspan = require "celspan"
 local contours = require "celspan.lottie_contour"
 local native = require "celspan.native"
-local forms = require "celspan.lottie_forms"
 local geometry = require "celspan.lottie_geometry"
 local property = require "celspan.lottie_property"
 
@@ -57,7 +56,7 @@ end
 
 --- m: 1 cuts each geometry alone, 2 cuts all of them as one way.
 function kinds.tm(scope, item)
-  local read, state = forms.reader(scope)
+  local read, moves = property.reader(scope)
   local from = read(property.number, item.s, "the start", 0)
   local to = read(property.number, item.e, "the end", 100)
   local offset = read(property.number, item.o, "the offset", 0)
@@ -71,7 +70,7 @@ function kinds.tm(scope, item)
       note(list)
       list = geometry.list(geometry.join(list))
     end
-    return each(list, state.moves, through(trim), trim)
+    return each(list, moves(), through(trim), trim)
   end
 end
 
@@ -99,7 +98,7 @@ function kinds.pb(scope, item)
 end
 
 function kinds.zz(scope, item)
-  local read, state = forms.reader(scope)
+  local read, moves = property.reader(scope)
   local size = read(property.number, item.s, "the size", 0)
   local ridges, kind = read(property.number, item.r, "the ridges", 0),
     read(property.number, item.pt, "the points", 1)
@@ -107,18 +106,18 @@ function kinds.zz(scope, item)
     local count = math.max(0, math.min(MOST_RIDGES, math.floor(ridges(t))))
     return celspan.zigzag(object, { size = size(t), smooth = kind(t) == 2, ridges = count })
   end
-  return function(list) return each(list, state.moves, through(zigzag), zigzag) end
+  return function(list) return each(list, moves(), through(zigzag), zigzag) end
 end
 
 function kinds.tw(scope, item)
-  local read, state = forms.reader(scope)
+  local read, moves = property.reader(scope)
   local degrees, centre = read(property.number, item.a, "the angle", 0),
     read(property.list, item.c, "the centre", { 0, 0 })
   local function twist(object, t)
     local c = centre(t)
     return celspan.twist(object, degrees(t), { centre = { c[1], c[2] } })
   end
-  return function(list) return each(list, state.moves, through(twist), twist) end
+  return function(list) return each(list, moves(), through(twist), twist) end
 end
 
 -- ---------------------------------------------------------------- areas
@@ -126,7 +125,7 @@ end
 local joins = { "miter", "round", "bevel" }
 
 function kinds.op(scope, item)
-  local read, state = forms.reader(scope)
+  local read, moves = property.reader(scope)
   local distance = read(property.number, item.a, "the amount", 0)
   local limit = read(property.number, item.ml, "the miter limit", 4)
   local function grow(object, t)
@@ -134,7 +133,7 @@ function kinds.op(scope, item)
                                                  limit = math.max(1, limit(t)) })
   end
   return function(list)
-    return geometry.each(list, function(one) return operate(one, state.moves, grow) end)
+    return geometry.each(list, function(one) return operate(one, moves(), grow) end)
   end
 end
 

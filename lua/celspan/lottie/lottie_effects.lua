@@ -15,20 +15,16 @@ local FAR = 1e5 -- units: beyond every layer
 
 --- Reads the parameters of an effect by their places, from 0.
 local function reader(scope, item)
-  local list, state = values.table(item.ef) or {}, { moves = false }
+  local list, read, moves = values.table(item.ef) or {}, property.reader(scope)
   local function value(place)
     local one = values.table(list[place + 1])
     return one and one.v
   end
-  local function keep(get, moves)
-    state.moves = state.moves or moves
-    return get
-  end
   local function number(place, default)
-    return keep(property.number(scope, value(place), "the effect", default))
+    return read(property.number, value(place), "the effect", default)
   end
-  local function colour(place) return keep(property.colour(scope, value(place), "the effect")) end
-  return number, colour, state
+  local function colour(place) return read(property.colour, value(place), "the effect") end
+  return number, colour, moves
 end
 
 --- An object whose colours have been through a grade, in sRGB codes.
@@ -42,7 +38,7 @@ local readers = {}
 
 --- Tint: from black to white, two other colours, by luminance.
 readers[20] = function(scope, item)
-  local number, colour, state = reader(scope, item)
+  local number, colour, moves = reader(scope, item)
   local black, white, amount = colour(0), colour(1), number(2, 100)
   return function(t, object)
     local b, w, k, matrix = black(t), white(t), held(amount(t) / 100), {}
@@ -52,12 +48,12 @@ readers[20] = function(scope, item)
       matrix[row][row] = matrix[row][row] + 1 - k
     end
     return graded(object, { matrix = matrix })
-  end, state
+  end, moves
 end
 
 --- Fill: the shape in one colour.
 readers[21] = function(scope, item)
-  local number, colour, state = reader(scope, item)
+  local number, colour, moves = reader(scope, item)
   local fill, opacity = colour(2), number(6, 1)
   return function(t, object)
     local c, share = fill(t), held(opacity(t))
@@ -65,7 +61,7 @@ readers[21] = function(scope, item)
                                                texture = paint.coded(c[1], c[2], c[3], 1) }, object)
     if share == 1 then return plain end
     return celspan.group { object, plain:fade(share) }
-  end, state
+  end, moves
 end
 
 --- Drop shadow. Angles are clockwise from up.
@@ -79,21 +75,21 @@ local function shadow(colour, opacity, degrees, distance, softness, only)
 end
 
 readers[25] = function(scope, item)
-  local number, colour, state = reader(scope, item)
+  local number, colour, moves = reader(scope, item)
   local opacity = number(1, 255)
   return shadow(colour(0), function(t) return opacity(t) / 255 end, number(2, 0), number(3, 0),
-    number(4, 0), number(5, 0)), state
+    number(4, 0), number(5, 0)), moves
 end
 
 --- Gaussian blur. Skia takes a sigma of 0.3 of the amount, and so does this.
 readers[29] = function(scope, item)
-  local number, _, state = reader(scope, item)
+  local number, _, moves = reader(scope, item)
   local amount, along = number(0, 0), number(1, 1)
   if along(0) ~= 1 then scope.note "a blur along one axis is shown along both" end
   return function(t, object)
     local radius = amount(t) * BLUR
     return radius > 0 and object:blur(radius) or object
-  end, state
+  end, moves
 end
 
 --- The curve of levels; 17 places are enough for a smooth power.
@@ -108,7 +104,7 @@ local function levels_curve(low, high, gamma, out_low, out_high)
 end
 
 readers[24] = function(scope, item)
-  local number, _, state = reader(scope, item)
+  local number, _, moves = reader(scope, item)
   if item.mn ~= "ADBE Easy Levels2" then
     scope.note "levels by channel are left out"
     return nil
@@ -118,7 +114,7 @@ readers[24] = function(scope, item)
   return function(t, object)
     return graded(object, { curve = levels_curve(low(t), high(t), gamma(t), out_low(t),
       out_high(t)) })
-  end, state
+  end, moves
 end
 
 -- ---------------------------------------------------------------- lists
@@ -126,10 +122,10 @@ end
 local is_control = { [0] = true, [1] = true, [2] = true, [3] = true, [4] = true, [5] = true,
                      [6] = true, [7] = true, [10] = true, [11] = true }
 
-local function add(list, change, state)
+local function add(list, change, moves)
   if not change then return false end
   list[#list + 1] = change
-  return state.moves
+  return moves()
 end
 
 local function add_effects(scope, item, list)
@@ -154,16 +150,14 @@ local function add_styles(scope, item, list)
     local style = one[2]
     local own = scope.within((".sy[%d]"):format(one[1] - 1), style.nm)
     if style.ty == 1 then
-      local state = { moves = false }
+      local read, is_moving = property.reader(own)
       local function number(name, default)
-        local get, is_moving = property.number(own, style[name], "the shadow", default)
-        state.moves = state.moves or is_moving
-        return get
+        return read(property.number, style[name], "the shadow", default)
       end
       local opacity, angle = number("o", 75), number("a", 120)
       moves = add(list, shadow(property.colour(own, style.c, "the shadow"),
         function(t) return opacity(t) / 100 end, function(t) return -90 - angle(t) end,
-        number("d", 5), number("s", 5), function() return 0 end), state) or moves
+        number("d", 5), number("s", 5), function() return 0 end), is_moving) or moves
     else
       own.note(("the layer style %s is left out"):format(fields.key(style.ty)))
     end

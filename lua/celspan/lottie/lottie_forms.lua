@@ -6,16 +6,6 @@ local property = require "celspan.lottie_property"
 
 local forms = {}
 
---- A reader of properties that also says whether any of them moves.
-function forms.reader(scope)
-  local state = { moves = false }
-  return function(how, ...)
-    local get, moves = how(scope, ...)
-    state.moves = state.moves or moves
-    return get
-  end, state
-end
-
 local function directed(list, item)
   if #list == 0 then return {} end
   return { item.d == 3 and curves.reversed(list) or list }
@@ -29,28 +19,28 @@ function kinds.sh(scope, item)
 end
 
 function kinds.rc(scope, item)
-  local read, state = forms.reader(scope)
+  local read, moves = property.reader(scope)
   local position = read(property.point, item.p, "the position")
   local size = read(property.list, item.s, "the size", { 0, 0 })
   local radius = read(property.number, item.r, "the roundness", 0)
   return function(t)
     local p, s = position(t), size(t)
     return directed(contours.rectangle(p[1], p[2], s[1], s[2], radius(t)), item)
-  end, state.moves
+  end, moves()
 end
 
 function kinds.el(scope, item)
-  local read, state = forms.reader(scope)
+  local read, moves = property.reader(scope)
   local position = read(property.point, item.p, "the position")
   local size = read(property.list, item.s, "the size", { 0, 0 })
   return function(t)
     local p, s = position(t), size(t)
     return directed(contours.ellipse(p[1], p[2], s[1] / 2, s[2] / 2), item)
-  end, state.moves
+  end, moves()
 end
 
 function kinds.sr(scope, item)
-  local read, state = forms.reader(scope)
+  local read, moves = property.reader(scope)
   local position = read(property.point, item.p, "the position")
   local points = read(property.number, item.pt, "the points", 5)
   local turn = read(property.number, item.r, "the rotation", 0)
@@ -63,7 +53,7 @@ function kinds.sr(scope, item)
     return directed(contours.star(p[1], p[2], points(t), turn(t),
       { outer(t), outer_round(t) / 100 },
       item.sy ~= 2 and { inner(t), inner_round(t) / 100 } or nil), item)
-  end, state.moves
+  end, moves()
 end
 
 --- The outlines of an item; nil for an item of another kind.

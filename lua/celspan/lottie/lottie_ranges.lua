@@ -91,11 +91,9 @@ end
 ---@return boolean moves
 function ranges.compile(scope, given)
   given = values.table(given) or {}
-  local moves = false
+  local read, moves = property.reader(scope)
   local function number(name, default)
-    local get, is_moving = property.number(scope, given[name], "the range's " .. name, default)
-    moves = moves or is_moving
-    return get
+    return read(property.number, given[name], "the range's " .. name, default)
   end
   local by_index = given.r == 2
   local first, last, offset = number("s", 0), number("e", by_index and 1e6 or 100), number("o", 0)
@@ -111,7 +109,7 @@ function ranges.compile(scope, given)
     local s, e = (first(t) + offset(t)) * unit, (last(t) + offset(t)) * unit
     if s > e then s, e = e, s end
     return change(shape(numbers[i], s, e), t) * amount(t) / 100
-  end, moves
+  end, moves()
 end
 
 return require "celspan.fields".seal("lottie_ranges", ranges)

@@ -6,7 +6,6 @@
 -- the forms above it, for all styles: those above it, too.
 local celspan = require "celspan"
 local changes = require "celspan.lottie_changes"
-local forms = require "celspan.lottie_forms"
 local geometry = require "celspan.lottie_geometry"
 local paint = require "celspan.lottie_paint"
 local property = require "celspan.lottie_property"
@@ -34,10 +33,10 @@ end
 
 --- The dashes of a stroke as a function of the frame, and its offset.
 local function dashes(scope, item)
-  local lengths, offset, moves = {}, nil, false
+  local read, moves = property.reader(scope)
+  local lengths, offset = {}, nil
   for n, one in ipairs(values.items(item.d)) do
-    local get, is_moving = property.number(scope, one[2].v, "a dash", 0)
-    moves = moves or is_moving
+    local get = read(property.number, one[2].v, "a dash", 0)
     if one[2].n == "o" then
       offset = get
     elseif n <= MOST_DASHES then
@@ -52,7 +51,7 @@ local function dashes(scope, item)
     end
     if sum <= 1e-3 then return nil end
     return list, offset and offset(t) or 0
-  end, moves
+  end, moves()
 end
 
 local function stroke(scope, item, one)
@@ -109,7 +108,7 @@ end
 --- frame. Transform number k is the power k of its own.
 local function copies(scope, item)
   local tr = values.table(item.tr) or {}
-  local read, state = forms.reader(scope)
+  local read, moves = property.reader(scope)
   local count, offset = read(property.number, item.c, "the copies", 0),
     read(property.number, item.o, "the offset", 0)
   local position, anchor = read(property.point, tr.p, "the position"),
@@ -128,7 +127,7 @@ local function copies(scope, item)
       { power(s[1], k), power(s[2], k) }, k * degrees(t), 0, 0)
   end
   local function number(t) return math.max(0, math.floor(math.min(MOST_COPIES, count(t)))) end
-  local made = { moves = state.moves, most = math.max(1, number(scope.root.first)) }
+  local made = { moves = moves(), most = math.max(1, number(scope.root.first)) }
   made.maps = paint.memo(made.moves, function(t)
     local n, maps, shares = number(t), {}, {}
     for i = 1, n do

@@ -72,18 +72,16 @@ end
 --- An animator: its properties by their short names, and its ranges.
 local function animator(scope, item)
   local a, made = values.table(item.a) or {}, { get = {} }
-  local moves = false
+  local read, moves = property.reader(scope)
   for _, one in ipairs(known) do
-    local name, default, read = one[1], one[2], one[3]
+    local name, default, how = one[1], one[2], one[3]
     if a[name] ~= nil then
-      local get, is_moving = read(scope, a[name], "the animator's " .. name, default)
-      made.get[name], moves = get, moves or is_moving
+      made.get[name] = read(how, a[name], "the animator's " .. name, default)
     end
   end
   note_others(scope, a)
-  local range, is_moving = ranges.compile(scope, item.s)
-  made.range = range
-  return made, moves or is_moving
+  made.range = read(ranges.compile, item.s)
+  return made, moves()
 end
 
 local function mixed(base, to, k)
