@@ -13,73 +13,36 @@
 
 #include "base/open.h"
 
-static int lacks(void) {
-  errno = ENOSYS;
-  return -1;
-}
+#pragma GCC diagnostic ignored "-Wunused-parameter"
+
+/* A function that fails. */
+#define LACKS(name, ...)                                                                           \
+  int name(__VA_ARGS__) {                                                                          \
+    errno = ENOSYS;                                                                                \
+    return -1;                                                                                     \
+  }
+
+LACKS(inotify_init1, int flags)
+LACKS(inotify_add_watch, int queue, const char *path, uint32_t events)
+LACKS(memfd_create, const char *name, unsigned flags)
+LACKS(ppoll, struct pollfd *sources, nfds_t count, const struct timespec *time,
+      const sigset_t *mask)
+LACKS(prctl, int option, ...)
+LACKS(sigaltstack, const stack_t *restrict stack, stack_t *restrict before)
+LACKS(syncfs, int descriptor)
+LACKS(timer_create, clockid_t clock, struct sigevent *restrict event, timer_t *restrict timer)
+LACKS(timer_settime, timer_t timer, int flags, const struct itimerspec *restrict value,
+      struct itimerspec *restrict before)
 
 /* Files have no locks that another descriptor would keep, and fcntl would open a new file a second
  * time as a new one, which fails. */
-int cs_open_twice(int descriptor) {
-  (void)descriptor;
-  return open("/dev/null", O_RDONLY);
-}
-
-int inotify_init1(int flags) {
-  (void)flags;
-  return lacks();
-}
-
-int inotify_add_watch(int queue, const char *path, uint32_t events) {
-  (void)queue, (void)path, (void)events;
-  return lacks();
-}
-
-int memfd_create(const char *name, unsigned flags) {
-  (void)name, (void)flags;
-  return lacks();
-}
+int cs_open_twice(int descriptor) { return open("/dev/null", O_RDONLY); }
 
 /* Files of node do not say when they are ready. */
 int poll(struct pollfd *sources, nfds_t count, int milliseconds) {
-  (void)milliseconds;
   for (nfds_t i = 0; i < count; i++)
     sources[i].revents = 0;
   return 0;
 }
 
-int ppoll(struct pollfd *sources, nfds_t count, const struct timespec *time, const sigset_t *mask) {
-  (void)sources, (void)count, (void)time, (void)mask;
-  return lacks();
-}
-
-int prctl(int option, ...) {
-  (void)option;
-  return lacks();
-}
-
-int pthread_getcpuclockid(pthread_t thread, clockid_t *clock) {
-  (void)thread, (void)clock;
-  return ENOSYS;
-}
-
-int sigaltstack(const stack_t *restrict stack, stack_t *restrict before) {
-  (void)stack, (void)before;
-  return lacks();
-}
-
-int syncfs(int descriptor) {
-  (void)descriptor;
-  return lacks();
-}
-
-int timer_create(clockid_t clock, struct sigevent *restrict event, timer_t *restrict timer) {
-  (void)clock, (void)event, (void)timer;
-  return lacks();
-}
-
-int timer_settime(timer_t timer, int flags, const struct itimerspec *restrict value,
-                  struct itimerspec *restrict before) {
-  (void)timer, (void)flags, (void)value, (void)before;
-  return lacks();
-}
+int pthread_getcpuclockid(pthread_t thread, clockid_t *clock) { return ENOSYS; }
