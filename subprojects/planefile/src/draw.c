@@ -4,7 +4,6 @@
  *
  * A chain keeps its place on its curve from one border to the next one, and from rows to rows.
  */
-#include <math.h>
 
 #include "sums.h"
 

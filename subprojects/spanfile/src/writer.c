@@ -18,7 +18,6 @@
  *   part 1                   |key .........|
  *   file   header |bytes of part 0| node |bytes of part 1| ... trailer
  */
-#include "crc32c.h"
 #include "fit.h"
 #include "output.h"
 #include "pack.h"

@@ -11,7 +11,6 @@
 #include "frames/render/patterns.h"
 #include "frames/render/through.h"
 #include "model/pictures/surface.h"
-#include "model/scene/value.h"
 
 /* ---------------------------------------------------------------- what is hidden */
 

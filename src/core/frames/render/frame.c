@@ -3,7 +3,6 @@
 #include <math.h>
 
 #include "base/number.h"
-#include "frames/render/compile.h"
 #include "frames/render/drawings.h"
 #include "model/scene/check.h"
 #include "output/sinks/pixels.h"

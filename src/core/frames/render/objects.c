@@ -4,7 +4,6 @@
 
 #include <math.h>
 
-#include "frames/render/compiler.h"
 #include "frames/render/layers.h"
 #include "frames/render/lights.h"
 #include "frames/render/patterns.h"

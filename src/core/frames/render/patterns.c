@@ -7,7 +7,6 @@
 #include "engine/row/row.h"
 #include "model/colour/space.h"
 #include "model/geometry/matrix.h"
-#include "model/scene/primitive_data.h"
 #include "model/scene/texture.h"
 #include "model/scene/walk.h"
 

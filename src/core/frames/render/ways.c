@@ -5,7 +5,6 @@
 #include "frames/render/parts.h"
 #include "model/geometry/boundary.h"
 #include "model/geometry/matrix.h"
-#include "model/scene/primitive_data.h"
 #include "model/scene/texture.h"
 
 /* ---------------------------------------------------------------- what suits */

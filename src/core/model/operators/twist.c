@@ -5,7 +5,6 @@
 #include "base/elementary.h"
 #include "base/number.h"
 #include "celspan/operators.h"
-#include "model/geometry/matrix.h"
 #include "model/operators/operate.h"
 #include "model/scene/bounds.h"
 #include "model/scene/check.h"

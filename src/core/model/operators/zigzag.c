@@ -5,7 +5,6 @@
  *   *      \   /    \          joint after. smooth: the points are joined by curves along the piece
  *            *       *
  */
-#include <math.h>
 
 #include "base/number.h"
 #include "celspan/operators.h"

@@ -4,7 +4,6 @@
 
 #include "base/description.h"
 #include "base/module.h"
-#include "base/number.h"
 #include "model/colour/primaries.h"
 #include "model/colour/transfer.h"
 #include "model/pictures/surface.h"

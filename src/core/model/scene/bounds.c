@@ -5,7 +5,6 @@
 
 #include "model/geometry/boundary.h"
 #include "model/geometry/matrix.h"
-#include "model/scene/primitive_data.h"
 #include "model/stroke/outliner.h"
 
 /* The tools for outlines of strokes. The status is that of the last outline that could not be made;

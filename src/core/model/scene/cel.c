@@ -2,7 +2,6 @@
 #include <string.h>
 
 #include "base/description.h"
-#include "base/number.h"
 #include "model/colour/blend.h"
 #include "model/scene/check.h"
 #include "model/scene/nearby.h"

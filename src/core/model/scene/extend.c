@@ -3,7 +3,6 @@
 #include <math.h>
 
 #include "base/number.h"
-#include "model/geometry/matrix.h"
 
 enum { PIECES = 9 };
 

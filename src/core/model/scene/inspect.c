@@ -7,7 +7,6 @@
 #include "model/pictures/store.h"
 #include "model/pictures/surface.h"
 #include "model/scene/check.h"
-#include "model/scene/scene.h"
 #include "model/scene/walk.h"
 
 typedef struct listener {

@@ -1,5 +1,4 @@
 /* Keys: a union of one object that is graded by a key. It isolates. */
-#include <math.h>
 
 #include "base/description.h"
 #include "model/scene/check.h"

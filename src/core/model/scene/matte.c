@@ -15,7 +15,6 @@
 #include "model/scene/bounds.h"
 #include "model/scene/check.h"
 #include "model/scene/grow.h"
-#include "model/scene/primitive_data.h"
 
 /* Half of white, as a code of sRGB; and how far around it a silhouette is whole by parts. */
 #define HALF 0.735356

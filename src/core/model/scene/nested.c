@@ -13,7 +13,6 @@
  */
 #include <string.h>
 
-#include "model/scene/check.h"
 #include "model/scene/primitive_data.h"
 #include "model/scene/shift.h"
 

@@ -3,7 +3,6 @@
 
 #include "base/number.h"
 #include "model/scene/check.h"
-#include "model/scene/texture.h"
 #include "model/scene/texture_unroll.h"
 #include "model/scene/value.h"
 

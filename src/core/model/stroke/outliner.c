@@ -2,7 +2,6 @@
 
 #include <math.h>
 
-#include "model/geometry/matrix.h"
 #include "model/stroke/dashes.h"
 #include "model/stroke/side.h"
 

@@ -11,12 +11,10 @@
 #include <math.h>
 
 #include "base/description.h"
-#include "model/geometry/matrix.h"
 #include "model/scene/bounds.h"
 #include "model/scene/check.h"
 #include "model/scene/primitive_data.h"
 #include "model/scene/texture.h"
-#include "model/scene/value.h"
 #include "model/stroke/outliner.h"
 #include "model/warp/bend.h"
 #include "model/warp/mesh.h"

@@ -2,10 +2,6 @@
 
 #include <string.h>
 
-#include "output/deflate/deflate.h"
-#include "output/png/bytes.h"
-#include "output/sinks/pixels.h"
-
 /* ---------------------------------------------------------------- rows of runs */
 
 /* In a large picture successive rows are similar. Therefore a choice is kept for one more row for
