@@ -58,21 +58,12 @@ static void write_again(spanfile_reader *reader) {
     demand(spanfile_reader_row(reader, y, &row, NULL) == SPANFILE_OK, "a row cannot be read again");
     spanfile_row_pixels(p.format, &row, 0, p.width, picture_row(&p, y));
   }
-  memory_file file = write_picture(&p, p.width);
-  spanfile_source source = memory_source(&file);
-  spanfile_reader *again = NULL;
-  demand(spanfile_reader_create(&source, &again, NULL) == SPANFILE_OK, "own file refused");
-  unsigned char *pixels = malloc(p.width * p.pixel_size);
-  for (uint32_t y = p.height; y-- > 0;) {
-    spanfile_row row;
-    demand(spanfile_reader_row(again, y, &row, NULL) == SPANFILE_OK, "own row refused");
-    spanfile_row_pixels(p.format, &row, 0, p.width, pixels);
-    demand(memcmp(pixels, picture_row(&p, y), p.width * p.pixel_size) == 0, "other pixels");
-  }
-  free(pixels);
-  spanfile_reader_destroy(again);
-  free(file.bytes);
-  free(p.pixels);
+  written again;
+  written_open(&again, p, p.width);
+  demand(again.reader != NULL, "own file refused");
+  for (uint32_t y = p.height; y-- > 0;)
+    demand(has_pixels(again.reader, &p, y), "other pixels");
+  written_free(&again);
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {

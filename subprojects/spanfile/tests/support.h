@@ -212,4 +212,18 @@ static inline void written_free(written *w) {
   free(w->p.pixels);
 }
 
+static inline bool has_pixels(spanfile_reader *reader, const picture *p, uint32_t y) {
+  spanfile_row row;
+  spanfile_fault fault;
+  if (!CHECK(spanfile_reader_row(reader, y, &row, &fault) == SPANFILE_OK)) {
+    fprintf(stderr, "  at %llu: %s\n", (unsigned long long)fault.offset, fault.reason);
+    return false;
+  }
+  unsigned char *pixels = malloc(p->width * p->pixel_size);
+  spanfile_row_pixels(p->format, &row, 0, p->width, pixels);
+  bool is_same = memcmp(pixels, picture_row(p, y), p->width * p->pixel_size) == 0;
+  free(pixels);
+  return is_same;
+}
+
 #endif

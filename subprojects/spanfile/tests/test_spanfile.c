@@ -6,20 +6,6 @@
 
 /* ---------------------------------------------------------------- there and back */
 
-static bool has_pixels(spanfile_reader *reader, const picture *p, uint32_t y) {
-  spanfile_row row;
-  spanfile_fault fault;
-  if (!CHECK(spanfile_reader_row(reader, y, &row, &fault) == SPANFILE_OK)) {
-    fprintf(stderr, "  at %llu: %s\n", (unsigned long long)fault.offset, fault.reason);
-    return false;
-  }
-  unsigned char *pixels = malloc(p->width * p->pixel_size);
-  spanfile_row_pixels(p->format, &row, 0, p->width, pixels);
-  bool is_same = memcmp(pixels, picture_row(p, y), p->width * p->pixel_size) == 0;
-  free(pixels);
-  return is_same;
-}
-
 static void check_rows(const written *w) {
   for (uint32_t y = 0; y < w->p.height; y++)
     CHECK(has_pixels(w->reader, &w->p, y));
