@@ -87,18 +87,15 @@ local function new_band(payload, flags, grid, base)
   return band
 end
 
-local function get_channels(band, name, from)
+-- shade: the step of the channels; nil: 1.
+local function get_channels(band, name, from, shade)
   local channels = {}
-  for c = 1, 4 do channels[c] = from[c] + band.coder.signed(name .. c) end
+  for c = 1, 4 do channels[c] = from[c] + (shade or 1) * band.coder.signed(name .. c) end
   return channels
 end
 
 -- A colour of a program.
-local function get_shades(band, name, from)
-  local channels = {}
-  for c = 1, 4 do channels[c] = from[c] + band.shade * band.coder.signed(name .. c) end
-  return channels
-end
+local function get_shades(band, name, from) return get_channels(band, name, from, band.shade) end
 
 local function get_double(band, name)
   local bytes = {}
@@ -170,11 +167,15 @@ local function guess(band, member, number)
   return out
 end
 
+-- The light of a code of sRGB, from 0 to 1.
+local function decode(code)
+  if code < 0 then return -decode(-code) end
+  return code <= 0.04045 and code / 12.92 or ((code + 0.055) / 1.055) ^ 2.4
+end
+
 -- The least light that has a code or a greater one.
 local function light_of(code)
-  local share = code / 255
-  local light = share <= 0.04045 and share / 12.92 or ((share + 0.055) / 1.055) ^ 2.4
-  return math.max(0, math.ceil(light * 65535 - 1e-7))
+  return math.max(0, math.ceil(decode(code / 255) * 65535 - 1e-7))
 end
 
 local function code_of(light)
@@ -537,8 +538,6 @@ local function copy_pixels(codes, width, height)
   return rows
 end
 
-local decode
-
 -- Pixels as light, with 65535 for white.
 local function to_light(rows, width, height, kind)
   for y = 0, height - 1 do
@@ -761,11 +760,6 @@ local function find_colour(step, x, y, size)
     end
   end
   return step[count].colour
-end
-
-function decode(code)
-  if code < 0 then return -decode(-code) end
-  return code <= 0.04045 and code / 12.92 or ((code + 0.055) / 1.055) ^ 2.4
 end
 
 local function leave(step, layer)
