@@ -6,6 +6,7 @@
 #include "engine/map/turn.h"
 #include "frames/render/drawings.h"
 #include "frames/render/frame.h"
+#include "frames/render/parts.h"
 #include "frames/render/ways.h"
 #include "model/geometry/matrix.h"
 #include "tests/support/frame_rows.h"
@@ -631,23 +632,25 @@ static void check_lines_fit(studio *s) {
 /* What makes a cel artwork: each row differs from the first one in what is judged there. */
 static void check_rule(void) {
   static const struct {
-    size_t shapes, inside, hiding;
+    size_t pieces, shapes, inside, hiding;
     double height; /* of each that is inside */
     double varied, flat;
     bool occurs_again, is_artwork, is_small;
   } rows[] = {
-      {100, 100, 50, 210, 5, 5, false, true, false},
-      {63, 63, 63, 210, 5, 5, false, false, true},    /* too few */
-      {64, 64, 64, 210, 5, 5, false, true, false},    /* enough */
-      {63, 63, 63, 210, 6, 5, false, false, false},   /* too few, and they vary */
-      {100, 100, 49, 210, 5, 5, false, false, false}, /* translucent */
-      {100, 100, 50, 210, 6, 5, false, false, false}, /* gradients */
-      {100, 25, 50, 210, 5, 5, false, true, false},   /* a quarter is seen */
-      {100, 24, 50, 210, 5, 5, false, false, false},  /* less */
-      {100, 100, 50, 211, 5, 5, false, false, false}, /* too high */
-      {100, 100, 50, 315, 5, 5, true, true, false},   /* seen twice */
-      {100, 100, 50, 316, 5, 5, true, false, false},
-      {100, 0, 50, 0, 0, 0, false, false, false}, /* outside the frame */
+      {400, 100, 100, 50, 210, 5, 5, false, true, false},
+      {255, 63, 63, 63, 210, 5, 5, false, false, true},    /* too few */
+      {256, 64, 64, 64, 210, 5, 5, false, true, false},    /* enough */
+      {256, 12, 12, 12, 210, 5, 5, false, true, false},    /* in fewer shapes */
+      {999, 11, 11, 11, 210, 5, 5, false, false, true},    /* which are too few */
+      {255, 63, 63, 63, 210, 6, 5, false, false, false},   /* too few, and they vary */
+      {400, 100, 100, 49, 210, 5, 5, false, false, false}, /* translucent */
+      {400, 100, 100, 50, 210, 6, 5, false, false, false}, /* gradients */
+      {400, 100, 25, 50, 210, 5, 5, false, true, false},   /* a quarter is seen */
+      {400, 100, 24, 50, 210, 5, 5, false, false, false},  /* less */
+      {400, 100, 100, 50, 211, 5, 5, false, false, false}, /* too high */
+      {400, 100, 100, 50, 315, 5, 5, true, true, false},   /* seen twice */
+      {400, 100, 100, 50, 316, 5, 5, true, false, false},
+      {400, 100, 0, 50, 0, 0, 0, false, false, false}, /* outside the frame */
   };
   for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
     const cs_census census = {.shapes = rows[i].shapes,
@@ -657,10 +660,55 @@ static void check_rule(void) {
                               .varied = rows[i].varied,
                               .flat = rows[i].flat};
     cs_ways ways = {0};
-    cs_ways_judge(&ways, 1, rows[i].shapes, &census, rows[i].occurs_again);
+    cs_ways_judge(&ways, 1, rows[i].pieces, &census, rows[i].occurs_again);
     if (!CHECK(ways.is_artwork[1] == rows[i].is_artwork && ways.is_small[1] == rows[i].is_small))
       fprintf(stderr, "  row %d of the rule\n", (int)i);
   }
+}
+
+/* Pieces of outline: a shape counts at least as a box does, and what is cut away not at all. */
+static void check_pieces(studio *s) {
+  celspan_point points[20];
+  for (int i = 0; i < 20; i++)
+    points[i] = (celspan_point){i, i % 2 + (i < 10 ? i : 30 - i)};
+  celspan_object *jagged = studio_polygon(s, points, 20, CELSPAN_RULE_NONZERO, NULL);
+  celspan_object *triangle = studio_polygon(s, points, 3, CELSPAN_RULE_NONZERO, NULL);
+  celspan_object *box = studio_rect(s, 0, 0, 9, 9, NULL);
+  celspan_object *cut = studio_pair(s, CELSPAN_OPERATOR_DIFFERENCE, box, jagged);
+  celspan_object *uncut = studio_pair(s, CELSPAN_OPERATOR_DIFFERENCE, jagged, box);
+  celspan_object *all[] = {jagged, triangle, box, cut, uncut};
+  CHECK(cs_parts_pieces(all, 1) == 20 && cs_parts_pieces(all + 1, 1) == 4);
+  CHECK(cs_parts_pieces(all + 3, 1) == 4 && cs_parts_pieces(all + 4, 1) == 20);
+  CHECK(cs_parts_pieces(all, 5) == 20 + 4 + 4 + 4 + 20);
+  celspan_object *held = studio_boolean(s, CELSPAN_OPERATOR_UNION, all, 5);
+  CHECK(cs_parts_pieces(&held, 1) == 52);
+  studio_finish(s);
+}
+
+static celspan_exposure shown(studio *s, celspan_cel_desc desc, celspan_object **objects,
+                              size_t count) {
+  celspan_cel *cels[] = {studio_cel(s, desc, objects, count)};
+  return (celspan_exposure){studio_rostrum(s, CELSPAN_ROSTRUM_DESC, cels, 1), 1};
+}
+
+/* A character of 20 traced shapes is drawn from a map; 20 boxes are not. */
+static void check_character(studio *s) {
+  celspan_object *traced[20], *boxes[20];
+  for (int k = 0; k < 20; k++) {
+    celspan_point points[16];
+    for (int i = 0; i < 16; i++) {
+      const double angle = 0.3927 * i, radius = i % 2 ? 12 - 0.3 * k : 9 - 0.3 * k;
+      points[i] = (celspan_point){30 + radius * cos(angle), 30 + radius * sin(angle)};
+    }
+    celspan_texture *paint = studio_paint(s, celspan_paint_rgb(k % 3 / 2.0f, 0.5f, k % 2, 1));
+    traced[k] = studio_polygon(s, points, 16, CELSPAN_RULE_NONZERO, paint);
+    boxes[k] = studio_rect(s, k, k, 20, 20, paint);
+  }
+  force(s, CS_WAYS_BY_RULE);
+  check_maps(s, shown(s, CELSPAN_CEL_DESC, traced, 20), 1, 1);
+  check_maps(s, shown(s, CELSPAN_CEL_DESC, boxes, 20), 0, 0);
+  force(s, CS_WAYS_MAPPED);
+  studio_finish(s);
 }
 
 /* Boxes that lie partly in the frame, faded, cut away, turned by a right angle and moved. */
@@ -691,12 +739,6 @@ static void check_census(studio *s) {
 
 static celspan_object *part(studio *s, double angle) {
   return turned(s, with_shapes(s, studio_circle(s, 20, 20, 15, NULL)), angle);
-}
-
-static celspan_exposure shown(studio *s, celspan_cel_desc desc, celspan_object **objects,
-                              size_t count) {
-  celspan_cel *cels[] = {studio_cel(s, desc, objects, count)};
-  return (celspan_exposure){studio_rostrum(s, CELSPAN_ROSTRUM_DESC, cels, 1), 1};
 }
 
 /* What is moved inside a cel is a part, also inside unions, and so is what lies between parts. A
@@ -877,6 +919,8 @@ int main(void) {
   check_missing(&s);
   check_lines_fit(&s);
   check_rule();
+  check_pieces(&s);
+  check_character(&s);
   check_census(&s);
   check_parts(&s);
   check_parts_together(&s);

@@ -312,7 +312,7 @@ static celspan_status place_cels(celspan_context *context, const cs_cel_parts *p
     d->opacity = d->cel->opacity;
     d->census = cs_census_take(d->cel->objects, d->cel->object_count, &d->matrix, view->width,
                                view->height);
-    cs_ways_judge(ways, i, cs_parts_shapes(d->cel->objects, d->cel->object_count), &d->census,
+    cs_ways_judge(ways, i, cs_parts_pieces(d->cel->objects, d->cel->object_count), &d->census,
                   occurs_again(parts, i, other));
     if (d->cel->object_count == 1)
       place_object(d, d->cel->objects[0]);
@@ -467,7 +467,7 @@ celspan_status cs_drawings_create(celspan_context *context, const celspan_rostru
               .ways.forced = (cs_ways_forced)context->root->forced_way};
   if (m.ways.forced == CS_WAYS_SWEPT || !cs_ways_exist(rostrum, view, antialias))
     return CELSPAN_OK;
-  celspan_status status = cs_parts_create(context, rostrum, view, CS_WAYS_SHAPES, &m.parts);
+  celspan_status status = cs_parts_create(context, rostrum, view, CS_WAYS_PIECES, &m.parts);
   if (status == CELSPAN_OK)
     status = make_frame(&m, out);
   cs_parts_finish(&m.parts, context->memory);

@@ -8,23 +8,23 @@ typedef struct search {
   const celspan_cel *cel;
   const cs_view *view;
   const celspan_rostrum *rostrum;
-  size_t rich;  /* shapes of the rich objects */
-  size_t least; /* shapes of a part */
+  size_t rich;  /* pieces of a rich object, at least */
+  size_t least; /* pieces of a part, at least */
   cs_cel_parts *parts;
   size_t number;                  /* the number of the cel */
   size_t first;                   /* where its parts begin */
   size_t count, most;             /* cels of the frame so far, and room for them */
-  size_t rich_shapes, all_shapes; /* of the parts of this cel, and of the objects between them */
+  size_t rich_pieces, all_pieces; /* of the parts of this cel, and of the objects between them */
   bool is_sane;                   /* none of its parts is enlarged or reduced too far */
 } search;
 
 /* ---------------------------------------------------------------- what is a part */
 
-size_t cs_parts_shapes(celspan_object *const *objects, size_t count) {
-  size_t shapes = 0;
+size_t cs_parts_pieces(celspan_object *const *objects, size_t count) {
+  size_t pieces = 0;
   for (size_t i = 0; i < count; i++)
-    shapes += (size_t)(objects[i]->data->shape_count - objects[i]->data->cut_count);
-  return shapes;
+    pieces += objects[i]->data->piece_count;
+  return pieces;
 }
 
 static bool is_moved(const celspan_object *object) { return object->matrix == object->own; }
@@ -42,7 +42,7 @@ static bool is_open(const search *s, const celspan_object *object) {
 static bool holds_part(const search *s, const celspan_object *object);
 
 static bool has_part(const search *s, celspan_object *object) {
-  return cs_parts_shapes(&object, 1) >= s->least && (is_moved(object) || holds_part(s, object));
+  return cs_parts_pieces(&object, 1) >= s->least && (is_moved(object) || holds_part(s, object));
 }
 
 static bool holds_part(const search *s, const celspan_object *object) {
@@ -78,9 +78,9 @@ static void add(search *s, celspan_object **objects, size_t count, const celspan
     const celspan_matrix placed = place(s->rostrum, part, s->view);
     s->is_sane = s->is_sane && cs_matrix_is_sane(&placed);
   }
-  size_t shapes = cs_parts_shapes(objects, count);
-  s->all_shapes += shapes;
-  s->rich_shapes += shapes >= s->rich ? shapes : 0;
+  size_t pieces = cs_parts_pieces(objects, count);
+  s->all_pieces += pieces;
+  s->rich_pieces += pieces >= s->rich ? pieces : 0;
   s->count++;
 }
 
@@ -106,7 +106,7 @@ static void split(search *s, celspan_object **objects, size_t count, const celsp
 static bool may_be_split(const search *s) {
   const celspan_cel *cel = s->cel;
   return !cs_cel_isolates(cel) && !cel->blends_inside[s->view->space] && !cel->front.texture &&
-         !cel->back.texture && cs_parts_shapes(cel->objects, cel->object_count) >= s->least;
+         !cel->back.texture && cs_parts_pieces(cel->objects, cel->object_count) >= s->least;
 }
 
 /* Appends the parts of a cel, or the cel itself. left: how many cels follow it. */
@@ -114,12 +114,12 @@ static void split_cel(search *s, size_t left) {
   const celspan_matrix identity = celspan_matrix_identity();
   s->first = s->count;
   s->most = CS_MAP_DRAWINGS - left;
-  s->rich_shapes = s->all_shapes = 0;
+  s->rich_pieces = s->all_pieces = 0;
   s->is_sane = true;
   if (may_be_split(s))
     split(s, s->cel->objects, s->cel->object_count, &identity);
   if (s->count > s->first + 1 && s->count <= s->most && s->is_sane &&
-      2 * s->rich_shapes >= s->all_shapes)
+      2 * s->rich_pieces >= s->all_pieces)
     return;
   s->count = s->first;
   cs_value_copy(&s->parts->cels[s->count], s->cel, sizeof *s->cel);
@@ -141,7 +141,7 @@ static bool cel_has_part(const search *s) {
 static void begin_cel(search *s, size_t index) {
   s->cel = s->rostrum->cels[index];
   s->number = index + 1;
-  size_t share = cs_parts_shapes(s->cel->objects, s->cel->object_count) / CS_PARTS_MOST;
+  size_t share = cs_parts_pieces(s->cel->objects, s->cel->object_count) / CS_PARTS_MOST;
   s->least = share > s->rich ? share : s->rich;
 }
 

@@ -11,14 +11,14 @@
  *           arm, rotated
  *
  * A cel that is one map is solved again whenever anything in it moves. The rule. An object of a cel
- * is a part that has a transform, is rich (CS_WAYS_SHAPES of ways.h), and has at least one in
- * CS_PARTS_MOST of the shapes of its cel; unless it only groups objects that contain parts: then
+ * is a part that has a transform, is rich (CS_WAYS_PIECES of ways.h), and has at least one in
+ * CS_PARTS_MOST of the pieces of its cel; unless it only groups objects that contain parts: then
  * these are the parts. An object only groups if it is a union that is not faded and has no mode,
  * grade or space of its own. The objects between two parts make a cel, too. A cel keeps its parts
  * together that
  *   - composites its objects by themselves, such as a faded one, or has objects whose modes act on
  *     other cels, or a light with a shape,
- *   - would have more shapes in what is not rich than in what is,
+ *   - would have more pieces in what is not rich than in what is,
  *   - enlarges or reduces a part beyond what a cel may,
  *   - would make more than CS_MAP_DRAWINGS cels of the frame.
  *
@@ -40,8 +40,8 @@ typedef struct cs_cel_parts {
   celspan_cel *cels, **list; /* the parts: CS_MAP_DRAWINGS each, or NULL where no cel has parts */
 } cs_cel_parts;
 
-/* rich: the shapes of a rich object. The rostrum has at most CS_MAP_DRAWINGS cels and must outlive
- * the parts, which stay in their place in memory. Errors: NO_MEMORY. */
+/* rich: the least pieces of a rich object. The rostrum has at most CS_MAP_DRAWINGS cels and must
+ * outlive the parts, which stay in their place in memory. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_parts_create(celspan_context *context,
                                                const celspan_rostrum *rostrum, const cs_view *view,
                                                size_t rich, cs_cel_parts *out);
@@ -50,7 +50,7 @@ CELSPAN_CHECKED celspan_status cs_parts_create(celspan_context *context,
 CELSPAN_CHECKED celspan_status cs_parts_place(celspan_context *context, const cs_cel_parts *parts,
                                               size_t index, const cs_view *view,
                                               celspan_matrix *out);
-/* The number of shapes in a list of objects, as rules about maps count them: without shapes that
- * are cut away. */
-size_t cs_parts_shapes(celspan_object *const *objects, size_t count);
+/* The pieces of the outlines in a list of objects, as rules about maps count them: see piece_count
+ * of cs_primitive_data. */
+size_t cs_parts_pieces(celspan_object *const *objects, size_t count);
 void cs_parts_finish(cs_cel_parts *parts, cs_memory *memory);

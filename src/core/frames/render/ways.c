@@ -23,9 +23,10 @@ bool cs_ways_is_uneven(const celspan_cel *cel) {
   return is_uneven;
 }
 
-/* How many shapes a cel adds to a sweep: a defocused cel adds only its box. */
-static size_t count_shapes(const celspan_cel *cel) {
-  return cel->defocus_radius > 0 ? 1 : cs_parts_shapes(cel->objects, cel->object_count);
+/* How many pieces a cel adds to a sweep: a defocused cel adds only its box. */
+static size_t count_pieces(const celspan_cel *cel) {
+  return cel->defocus_radius > 0 ? CS_SHAPE_PIECES
+                                 : cs_parts_pieces(cel->objects, cel->object_count);
 }
 
 static bool is_mapped(const cs_ways *ways, size_t cel) {
@@ -71,11 +72,11 @@ bool cs_ways_exist(const celspan_rostrum *rostrum, const cs_view *view,
                rostrum->cel_count <= CS_MAP_DRAWINGS;
   size_t most = 0;
   for (size_t i = 0; suits && i < rostrum->cel_count; i++) {
-    size_t shapes = count_shapes(rostrum->cels[i]);
-    most = shapes > most ? shapes : most;
+    size_t pieces = count_pieces(rostrum->cels[i]);
+    most = pieces > most ? pieces : most;
     suits = !has_procedure(rostrum->cels[i]);
   }
-  return suits && most >= CS_WAYS_SHAPES;
+  return suits && most >= CS_WAYS_PIECES;
 }
 
 void cs_ways_find(const celspan_rostrum *rostrum, const cs_view *view, cs_ways *ways) {
@@ -90,9 +91,9 @@ void cs_ways_find(const celspan_rostrum *rostrum, const cs_view *view, cs_ways *
 
 /* ---------------------------------------------------------------- what pays */
 
-void cs_ways_judge(cs_ways *ways, size_t cel, size_t shapes, const cs_census *census,
+void cs_ways_judge(cs_ways *ways, size_t cel, size_t pieces, const cs_census *census,
                    bool occurs_again) {
-  bool is_rich = shapes >= CS_WAYS_SHAPES;
+  bool is_rich = pieces >= CS_WAYS_PIECES && census->shapes >= CS_WAYS_SHAPES;
   bool is_flat = census->varied <= census->flat;
   double most = CS_WAYS_ROWS * (occurs_again ? 1.5 : 1);
   ways->is_small[cel] = !is_rich && is_flat;
@@ -105,7 +106,7 @@ bool cs_ways_choose(const celspan_rostrum *rostrum, cs_ways *ways) {
   size_t artwork = 0, others = 0, maps = 0;
   for (size_t i = 0; i < rostrum->cel_count; i++) {
     bool is_artwork = ways->suits[i] && ways->is_artwork[i];
-    *(is_artwork ? &artwork : &others) += count_shapes(rostrum->cels[i]);
+    *(is_artwork ? &artwork : &others) += count_pieces(rostrum->cels[i]);
     ways->mapped[i] = is_mapped(ways, i);
     maps += ways->mapped[i];
   }

@@ -10,7 +10,8 @@
  *
  * The rule. A cel is artwork, and its map pays in the first frame, if it suits and
  *
- *   has at least CS_WAYS_SHAPES shapes        else there is nothing to save
+ *   has at least CS_WAYS_PIECES pieces of     else there is nothing to save
+ *   outline, and CS_WAYS_SHAPES shapes
  *   half of them let nothing through          translucent shapes show as often as they cross
  *   what varies is no larger than the rest    gradients and pictures are painted either way
  *   a quarter of the shapes is in the frame   a map is made of all
@@ -18,8 +19,8 @@
  *   most CS_WAYS_ROWS rows high               rows of an edge alone cost a map more
  *
  * The last may be half as much again for a drawing that occurs twice in the frame. Where artwork
- * has at least as many shapes as the other cels, it is drawn from maps, and so are cels of fewer
- * shapes that suit, unless most of their area varies; the others are swept. Otherwise the whole
+ * has at least as many pieces as the other cels, it is drawn from maps, and so are cels of fewer
+ * pieces that suit, unless most of their area varies; the others are swept. Otherwise the whole
  * exposure is swept.
  *
  * docs/how-rows.md has the measurements behind these numbers.
@@ -75,7 +76,8 @@ cs_census cs_census_take(celspan_object *const *objects, size_t count, const cel
                          int32_t width, int32_t height);
 
 #define CS_WAYS_SIDE 8192
-#define CS_WAYS_SHAPES 64
+#define CS_WAYS_PIECES 256 /* 64 boxes have as many, and a traced character of 20 shapes more */
+#define CS_WAYS_SHAPES 12
 #define CS_WAYS_ROWS 210
 
 /* For tests and measurements, in forced_way of the context: all that suits goes one way. */
@@ -85,7 +87,7 @@ typedef struct cs_ways {
   cs_ways_forced forced;
   bool suits[CS_MAP_DRAWINGS]; /* by the index of the cel, from the rear */
   bool is_artwork[CS_MAP_DRAWINGS];
-  bool is_small[CS_MAP_DRAWINGS]; /* the cel has fewer shapes, and is a map among artwork */
+  bool is_small[CS_MAP_DRAWINGS]; /* the cel has fewer pieces, and is a map among artwork */
   bool mapped[CS_MAP_DRAWINGS];   /* the cel is drawn from its map */
   size_t rear; /* as many cels at the rear are swept with the light behind them */
 } cs_ways;
@@ -93,9 +95,9 @@ typedef struct cs_ways {
 /* Whether an exposure may have maps, whatever the places of its cels are. */
 bool cs_ways_exist(const celspan_rostrum *rostrum, const cs_view *view,
                    const cs_antialias *antialias);
-/* Judges a cel. shapes: of the cel; occurs_again: the same drawing, and so its map, occurs
+/* Judges a cel. pieces: of the cel; occurs_again: the same drawing, and so its map, occurs
  * again. */
-void cs_ways_judge(cs_ways *ways, size_t cel, size_t shapes, const cs_census *census,
+void cs_ways_judge(cs_ways *ways, size_t cel, size_t pieces, const cs_census *census,
                    bool occurs_again);
 /* Finds which cels suit, whatever their places and sizes are. All of them have been judged. */
 void cs_ways_find(const celspan_rostrum *rostrum, const cs_view *view, cs_ways *ways);

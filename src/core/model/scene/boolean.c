@@ -51,8 +51,7 @@ static celspan_status fill_more(celspan_context *context, cs_primitive_data *dat
   show_operands(data);
   data->depth = (int16_t)(from->depth - 1); /* below this one */
   data->primitive_count = from->primitive_count;
-  data->shape_count = from->shape_count;
-  data->cut_count = from->cut_count;
+  data->piece_count = from->piece_count;
   data->has_procedure = from->has_procedure;
   memcpy(data->blends, from->blends, sizeof data->blends);
   data->has_uneven = from->has_uneven;

@@ -28,7 +28,8 @@ static celspan_status check(celspan_context *context, const celspan_rostrum *ros
 
 /* The sums over the objects of all cels. */
 static celspan_status measure(celspan_context *context, cs_primitive_data *data) {
-  data->primitive_count = data->shape_count = 1; /* the frame */
+  data->primitive_count = 1; /* the frame */
+  data->piece_count = CS_SHAPE_PIECES;
   for (size_t i = 0; i < data->rostrum->cel_count; i++) {
     const celspan_cel *cel = data->rostrum->cels[i];
     CS_TRY(cs_primitive_data_measure(context, "rostrum", cel->objects, cel->object_count, data));

@@ -12,10 +12,13 @@
 static void measure_outline(cs_primitive_data *data) {
   const celspan_matrix identity = celspan_matrix_identity();
   cs_outline_box room;
-  if (!cs_outline_bounds(cs_primitive_data_outline(data, &room), &identity, &data->bounds))
+  const cs_outline *outline = cs_primitive_data_outline(data, &room);
+  const size_t pieces = outline->piece_count < UINT32_MAX ? outline->piece_count : UINT32_MAX;
+  if (!cs_outline_bounds(outline, &identity, &data->bounds))
     data->bounds = (celspan_box){0, 0, 0, 0};
   data->is_empty = !(data->bounds.width > 0 && data->bounds.height > 0);
-  data->primitive_count = data->shape_count = 1;
+  data->primitive_count = 1;
+  data->piece_count = pieces > CS_SHAPE_PIECES ? (uint32_t)pieces : CS_SHAPE_PIECES;
 }
 
 celspan_status cs_primitive_data_complete(celspan_context *context, cs_primitive_data *data,

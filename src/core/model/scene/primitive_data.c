@@ -370,16 +370,13 @@ static void add_modes(const celspan_object *object, cs_primitive_data *data) {
   data->has_modes |= cs_object_has_modes(object);
 }
 
-static uint16_t sum_of(uint16_t a, uint16_t b) {
-  return a < UINT16_MAX - b ? (uint16_t)(a + b) : UINT16_MAX;
-}
-
-/* Adds the shapes of an operand. */
-static void add_shapes(const cs_primitive_data *item, cs_primitive_data *data) {
+/* Adds the pieces of an operand that is not cut away. */
+static void add_pieces(const cs_primitive_data *item, cs_primitive_data *data) {
   bool is_cut = data->kind == CS_PRIMITIVE_DATA_BOOLEAN &&
                 data->boolean->op == CELSPAN_OPERATOR_DIFFERENCE && data->primitive_count > 0;
-  data->shape_count = sum_of(data->shape_count, item->shape_count);
-  data->cut_count = sum_of(data->cut_count, is_cut ? item->shape_count : item->cut_count);
+  const uint32_t room = UINT32_MAX - data->piece_count;
+  if (!is_cut)
+    data->piece_count += item->piece_count < room ? item->piece_count : room;
 }
 
 celspan_status cs_primitive_data_measure(celspan_context *context, const char *noun,
@@ -390,7 +387,7 @@ celspan_status cs_primitive_data_measure(celspan_context *context, const char *n
   for (size_t i = 0; i < count; i++) {
     const cs_primitive_data *item = objects[i]->data;
     data->depth = item->depth > data->depth ? item->depth : data->depth;
-    add_shapes(item, data);
+    add_pieces(item, data);
     data->primitive_count += item->primitive_count; /* both at most the limit: no overflow */
     data->has_procedure |= item->has_procedure;
     add_modes(objects[i], data);

@@ -132,6 +132,8 @@ typedef struct cs_repeat {
   celspan_matrix matrix, inverse; /* from those units to the data's */
 } cs_repeat;
 
+#define CS_SHAPE_PIECES 4
+
 /* The data of an object without its transform and fade: shared by all its transformed copies. A
  * scene may have a million of them, nearly all outlines: the values of other kinds are behind a
  * pointer, and an upright rectangle is kept as a box. cs_primitive_data_outline gives the outline
@@ -152,8 +154,8 @@ typedef struct cs_primitive_data {
   bool has_modes;           /* a mode is in this object or below it, except inside a rostrum */
   bool is_box;              /* the outline is `box`, which has an area */
   int16_t depth;            /* levels of booleans and rostrums, with this object */
-  uint16_t shape_count;     /* as primitive_count, but a mesh is one shape; 65535 at most */
-  uint16_t cut_count;       /* how many primitives a difference cuts away */
+  uint32_t piece_count;     /* of outlines, at least CS_SHAPE_PIECES a shape, of which a mesh and
+                               a stroke are one; without what a difference cuts away */
   uint32_t primitive_count; /* primitives of the tree; a shared one counts each time */
   celspan_texture *texture; /* OUTLINE; never NULL */
   /* all kinds except BOOLEAN: own units; tight, but the bounds of a stroke only where tight

@@ -116,7 +116,8 @@ static celspan_status fit_texture(celspan_context *context, cs_primitive_data *d
 static celspan_status fill(celspan_context *context, cs_primitive_data *data,
                            const celspan_stroke_desc *desc, const cs_outline *outline,
                            const cs_outline_closed *closed) {
-  data->primitive_count = data->shape_count = 1;
+  data->primitive_count = 1;
+  data->piece_count = CS_SHAPE_PIECES;
   CS_TRY(fit_texture(context, data, desc, outline, closed));
   CS_TRY(CS_MAKE(context, data->stroke, 1));
   cs_outline_init(&data->stroke->line);

@@ -106,10 +106,7 @@ static celspan_status place(celspan_context *context, celspan_texture *texture,
 }
 
 /* A mesh counts as one shape when it is decided whether a drawing should be kept. */
-static void count_as_one(const celspan_object *mesh) {
-  mesh->data->shape_count = 1;
-  mesh->data->cut_count = 0;
-}
+static void count_as_one(const celspan_object *mesh) { mesh->data->piece_count = CS_SHAPE_PIECES; }
 
 /* *out: the union of all triangles, new, each with the texture moved by the map. texture: placed by
  * a matrix in the units around the object; box: where a picture without a box lies, in its own
