@@ -405,6 +405,25 @@ static celspan_status paint_varied(folding *f, const folded *all, int32_t x, int
   return CELSPAN_OK;
 }
 
+/* Writes the spans of the rearmost sheet that follow its current one, up to column x, as far as the
+ * sheets in front of it stay as they are. Returns the column where it ends. */
+static inline int32_t write_rear(folding *f, int32_t x, cs_row_writer *writer) {
+  const cs_map_frame *frame = f->maker->frame;
+  const size_t rear = frame->count - 1;
+  const cs_map_span *span = f->at[rear];
+  const cs_map_sheet sheet = {.back = frame->sheets[rear].back, .keep = frame->sheets[rear].keep};
+  const folded front = f->before[rear];
+  while (x < front.end) {
+    cs_map_fold fold = front.fold;
+    span++;
+    cs_map_fold_add(&fold, &sheet, span->colour, cs_map_even(span->colour));
+    x = span->end < front.end ? span->end : front.end;
+    cs_row_writer_to(writer, x, cs_map_fold_end_even(fold, frame));
+  }
+  f->at[rear] = span;
+  return x;
+}
+
 /* A row in which nothing varies. */
 static celspan_status make_flat_row(folding *f, cs_row *out) {
   const cs_map_maker *maker = f->maker;
@@ -418,6 +437,8 @@ static celspan_status make_flat_row(folding *f, cs_row *out) {
     if (all.broken > 1)
       CS_TRY(solve(f, x, all.broken, &colour));
     cs_row_writer_to(&writer, end, colour);
+    if (f->shown_count == maker->frame->count && f->before[f->shown_count - 1].broken == 0)
+      end = write_rear(f, end, &writer);
   }
   cs_row_writer_end(&writer);
   return CELSPAN_OK;
