@@ -53,14 +53,12 @@ void CS_WIDE(cs_map_put_places)(const cs_map_placing *placing, const cs_map_poin
 
 /* ---------------------------------------------------------------- a pixel */
 
-/* The sums to which borders are added: copies, which stay in registers. */
+/* The sums to which a border is added: copies, which stay in registers. */
 typedef struct target {
   cs_map_sum *sums;
   unsigned char *bits;
-  uint32_t stride;   /* bytes of a row of bits */
-  int32_t top, side; /* the top of the swath, and the right side of the frame */
-  bool is_inside;    /* no place is left or right of the frame; a constant of each caller */
-  bool varies;       /* the areas of cells that vary are listed; a constant of each caller */
+  uint32_t stride; /* bytes of a row of bits */
+  bool varies;     /* the areas of cells that vary are listed; a constant of each caller */
   cs_v4 step;
   uint64_t key;
   const cs_map_live *live;
@@ -103,7 +101,7 @@ static inline void mark(const target *t, uint32_t at, uint32_t mask) {
 
 /* ---------------------------------------------------------------- pieces */
 
-#define PIECES 64
+#define PIECES 128
 #define UNIT_BITS 16 /* vectors of integers are shifted: they are slow to divide */
 _Static_assert(1 << UNIT_BITS == CS_MAP_UNIT, "a pixel is a power of two");
 
@@ -112,10 +110,15 @@ typedef struct piece {
   int32_t xa, ya, xb, yb;
 } piece;
 
-typedef struct cutting {
+/* The pieces of one border after the other, which are added together. */
+typedef struct batch {
   piece pieces[PIECES + 7]; /* at the end room for zeros up to a multiple of eight */
-  size_t count;
-} cutting;
+  size_t count, run_count;
+  struct {
+    const cs_map_live *live;
+    size_t end; /* of its pieces */
+  } runs[PIECES];
+} batch;
 
 /* Adds a piece over more than two columns. */
 static __attribute__((noinline)) void add_columns(const cs_map_adding *a, const target *t,
@@ -172,35 +175,37 @@ static inline ends load_pieces(const piece *p) {
                 __builtin_shufflevector(ba, dc, 2, 6, 3, 7, 10, 14, 11, 15)};
 }
 
-/* The changes by eight pieces, each of them in at most two columns. */
+/* The changes by pieces, each of them in at most two columns. */
 typedef struct changes {
-  int32_t sum[8];           /* the number of the sum of the first column */
-  int32_t byte[8], mask[8]; /* the bits of all columns */
+  int32_t sum[PIECES];                /* the number of the sum of the first column */
+  int32_t byte[PIECES], mask[PIECES]; /* the bits of all columns */
   /* the changes in the first column, in the second, and to the right of both */
-  int32_t one[8], two[8], three[8];
-  float weights[3][8]; /* the same changes as floats */
-  int32_t beyond[8];   /* how far a piece reaches right of the first column */
+  int32_t one[PIECES], two[PIECES], three[PIECES];
+  float weights[3][PIECES]; /* the same changes as floats */
+  int32_t beyond[PIECES];   /* how far a piece reaches right of the first column */
 } changes;
 
 #define FLOATS(v) __builtin_convertvector(v, eight)
 #define ROUNDED(v) __builtin_convertvector((v) + 0.5f, integers8)
-#define PUT(v, out) memcpy(out, &(v), sizeof(v))
+static inline void put(integers8 v, int32_t *out) { memcpy(out, &v, sizeof v); }
 
-/* Where the pieces are in the sums. */
-static inline void find_places(const target *t, integers8 from, integers8 ya, integers8 has_two,
-                               changes *out) {
+static inline void put_floats(eight v, float *out) { memcpy(out, &v, sizeof v); }
+
+/* Where eight pieces, from the ith one on, are in the sums. */
+static inline void find_places(uint32_t stride, integers8 from, integers8 ya, integers8 has_two,
+                               size_t i, changes *out) {
   const integers8 column = from >> UNIT_BITS, row = (ya >> UNIT_BITS) & (CS_MAP_ROWS - 1);
   const integers8 sum = column * CS_MAP_ROWS + row;
-  const integers8 byte = row * (int32_t)t->stride + (column >> 3);
+  const integers8 byte = row * (int32_t)stride + (column >> 3);
   const integers8 mask = (3 - 4 * has_two) << (column & 7);
-  PUT(sum, out->sum);
-  PUT(byte, out->byte);
-  PUT(mask, out->mask);
+  put(sum, out->sum + i);
+  put(byte, out->byte + i);
+  put(mask, out->mask + i);
 }
 
 /* An upright piece divides by 0, but that result is not used, because the piece has one column. */
-static inline void find_changes(const target *t, const piece *pieces, changes *out) {
-  const ends p = load_pieces(pieces);
+static inline void find_changes(uint32_t stride, const piece *pieces, size_t i, changes *out) {
+  const ends p = load_pieces(pieces + i);
   const integers8 is_down = p.xa < p.xb;
   const integers8 from = choose(is_down, p.xa, p.xb), to = choose(is_down, p.xb, p.xa);
   const integers8 all = p.yb - p.ya, right = (from | (CS_MAP_UNIT - 1)) + 1, beyond = to - right;
@@ -212,13 +217,14 @@ static inline void find_changes(const target *t, const piece *pieces, changes *o
   const integers8 one = ROUNDED(FLOATS(height) * FLOATS(2 * right - from - end) * unit);
   const integers8 area = ROUNDED(FLOATS(rest) * FLOATS(2 * CS_MAP_UNIT - beyond) * unit);
   const integers8 two = height - one + area, three = rest - area;
-  find_places(t, from, p.ya, has_two, out);
-  PUT(one, out->one);
-  PUT(two, out->two);
-  PUT(three, out->three);
-  const eight weights[3] = {FLOATS(one), FLOATS(two), FLOATS(three)};
-  PUT(weights, out->weights);
-  PUT(beyond, out->beyond);
+  find_places(stride, from, p.ya, has_two, i, out);
+  put(one, out->one + i);
+  put(two, out->two + i);
+  put(three, out->three + i);
+  put_floats(FLOATS(one), out->weights[0] + i);
+  put_floats(FLOATS(two), out->weights[1] + i);
+  put_floats(FLOATS(three), out->weights[2] + i);
+  put(beyond, out->beyond + i);
 }
 
 static inline void add_piece(const cs_map_adding *a, const target *t, const changes *c, size_t k) {
@@ -230,26 +236,44 @@ static inline void add_piece(const cs_map_adding *a, const target *t, const chan
     add(a, t, sum + 2 * CS_MAP_ROWS, c->three[k], c->weights[2][k]);
 }
 
-static inline void add_pieces(const cs_map_adding *a, const target *t, cutting *s) {
+static inline void add_run(const cs_map_adding *a, const cs_map_live *live, bool varies,
+                           const piece *pieces, const changes *c, size_t k, size_t end) {
+  const cs_map_sums *sums = a->sums;
+  const target t = {.sums = sums->sums,
+                    .bits = (unsigned char *)sums->bits,
+                    .stride = (uint32_t)(sums->words * sizeof *sums->bits),
+                    .varies = varies,
+                    .step = cs_v4_load(live->step),
+                    .key = live->key,
+                    .live = live};
+  for (; k < end; k++)
+    if (c->beyond[k] > CS_MAP_UNIT)
+      add_columns(a, &t, &pieces[k]);
+    else
+      add_piece(a, &t, c, k);
+}
+
+static __attribute__((noinline)) void add_pieces(const cs_map_adding *a, batch *b) {
+  const uint32_t stride = (uint32_t)(a->sums->words * sizeof *a->sums->bits);
   changes c;
-  memset(s->pieces + s->count, 0, 7 * sizeof *s->pieces);
-  for (size_t i = 0; i < s->count; i += 8) {
-    const size_t count = s->count - i < 8 ? s->count - i : 8;
-    find_changes(t, s->pieces + i, &c);
-    for (size_t k = 0; k < count; k++)
-      if (c.beyond[k] > CS_MAP_UNIT)
-        add_columns(a, t, &s->pieces[i + k]);
-      else
-        add_piece(a, t, &c, k);
+  memset(b->pieces + b->count, 0, 7 * sizeof *b->pieces);
+  for (size_t i = 0; i < b->count; i += 8)
+    find_changes(stride, b->pieces, i, &c);
+  for (size_t i = 0, first = 0; i < b->run_count; first = b->runs[i++].end) {
+    const cs_map_live *live = b->runs[i].live;
+    if (live->varies)
+      add_run(a, live, true, b->pieces, &c, first, b->runs[i].end);
+    else
+      add_run(a, live, false, b->pieces, &c, first, b->runs[i].end);
   }
-  s->count = 0;
+  b->count = b->run_count = 0;
 }
 
 /* ---------------------------------------------------------------- cutting */
 
 /* Adds the part of a piece that is in the frame. Of the part left of the frame only the height
  * counts. */
-static void put_clipped(cutting *s, piece p, int32_t side) {
+static void put_clipped(batch *b, piece p, int32_t side) {
   const int32_t from = p.xa < p.xb ? p.xa : p.xb, to = p.xa < p.xb ? p.xb : p.xa;
   const double slope = to > from ? (double)(p.yb - p.ya) / ((double)to - from) : 0;
   if (from >= side)
@@ -260,82 +284,88 @@ static void put_clipped(cutting *s, piece p, int32_t side) {
                        : from < 0 ? (int32_t)(-(double)from * slope + 0.5)
                                   : 0;
   if (left > 0)
-    s->pieces[s->count++] = (piece){0, p.ya, 0, p.ya + left};
+    b->pieces[b->count++] = (piece){0, p.ya, 0, p.ya + left};
   if (p.ya + left < p.yb)
-    s->pieces[s->count++] = (piece){from > 0 ? from : 0, p.ya + left, to < side ? to : side, p.yb};
+    b->pieces[b->count++] = (piece){from > 0 ? from : 0, p.ya + left, to < side ? to : side, p.yb};
 }
 
-/* Cuts the part of a line that is in the swath, row by row. */
-static __attribute__((noinline)) void cut_line(const target *t, cs_map_point above,
-                                               cs_map_point below, cutting *s) {
-  const int32_t foot = t->top + CS_MAP_ROWS * CS_MAP_UNIT, end = below.y < foot ? below.y : foot;
+/* Cuts the part of a line that is in the swath, row by row. Returns the end of the pieces. */
+static inline piece *cut_line(int32_t top, cs_map_point above, cs_map_point below, piece *out) {
+  const int32_t foot = top + CS_MAP_ROWS * CS_MAP_UNIT, end = below.y < foot ? below.y : foot;
   const double slope = ((double)below.x - above.x) / ((double)below.y - above.y);
   piece p = {.xb = above.x, .yb = above.y};
-  if (p.yb < t->top) {
-    p.yb = t->top;
-    p.xb = above.x + (int32_t)((double)(p.yb - above.y) * slope);
+  if (p.yb < top) {
+    p.yb = top;
+    p.xb = above.x + (int32_t)((double)(top - above.y) * slope);
   }
   while (p.yb < end) {
     p.xa = p.xb;
     p.ya = p.yb;
     p.yb = (p.ya | (CS_MAP_UNIT - 1)) + 1;
-    p.yb = p.yb < below.y ? p.yb : below.y;
-    p.xb = p.yb < below.y ? above.x + (int32_t)((double)(p.yb - above.y) * slope) : below.x;
-    if (t->is_inside)
-      s->pieces[s->count++] = p;
-    else
-      put_clipped(s, p, t->side);
+    p.yb = p.yb < end ? p.yb : end; /* beyond it a flat line has no number for its place */
+    p.xb = above.x + (int32_t)((double)(p.yb - above.y) * slope);
+    *out++ = p;
   }
+  out[-1].xb = end == below.y ? below.x : out[-1].xb;
+  return out;
+}
+
+/* The same, of a border that is left or right of the frame somewhere. */
+static __attribute__((noinline)) void cut_clipped(const cs_map_adding *a, cs_map_point above,
+                                                  cs_map_point below, batch *b) {
+  piece pieces[CS_MAP_ROWS];
+  const piece *end = cut_line(a->row * CS_MAP_UNIT, above, below, pieces);
+  for (const piece *p = pieces; p < end; p++)
+    put_clipped(b, *p, a->sums->width * CS_MAP_UNIT);
 }
 
 /* ---------------------------------------------------------------- a border */
 
-static inline void add_border(const cs_map_adding *a, cs_map_live *live, bool varies,
-                              bool is_inside) {
-  const cs_map_sums *sums = a->sums;
+static inline void end_run(batch *b, const cs_map_live *live) {
+  b->runs[b->run_count].live = live;
+  b->runs[b->run_count].end = b->count;
+  b->run_count += b->count > (b->run_count > 0 ? b->runs[b->run_count - 1].end : 0);
+}
+
+/* is_inside: it is nowhere left or right of the frame; a constant of each caller. */
+static inline void add_border(const cs_map_adding *a, cs_map_live *live, bool is_inside, batch *b) {
   const cs_map_point *places = a->rows->places;
-  const target t = {.sums = sums->sums,
-                    .bits = (unsigned char *)sums->bits,
-                    .stride = (uint32_t)(sums->words * sizeof *sums->bits),
-                    .top = a->row * CS_MAP_UNIT,
-                    .side = sums->width * CS_MAP_UNIT,
-                    .is_inside = is_inside,
-                    .varies = varies,
-                    .step = cs_v4_load(live->step),
-                    .key = live->key,
-                    .live = live};
-  const int32_t foot = t.top + CS_MAP_ROWS * CS_MAP_UNIT;
+  const int32_t top = a->row * CS_MAP_UNIT, foot = top + CS_MAP_ROWS * CS_MAP_UNIT;
   const uint32_t end = live->end;
   uint32_t at = live->at;
-  cutting s;
-  s.count = 0;
   for (; at + 1 < end && places[at].y < foot; at++) {
     const cs_map_point above = places[at], below = places[at + 1];
-    if (is_inside && above.y >= t.top && (above.y ^ (below.y - 1)) >> UNIT_BITS == 0) {
-      s.pieces[s.count] = (piece){above.x, above.y, below.x, below.y};
-      s.count += below.y > above.y;
-    } else if (below.y > above.y && below.y > t.top) {
-      cut_line(&t, above, below, &s);
+    if (is_inside && above.y >= top && (above.y ^ (below.y - 1)) >> UNIT_BITS == 0) {
+      memcpy(&b->pieces[b->count], places + at, sizeof *b->pieces);
+      b->count += below.y > above.y;
+    } else if (below.y > above.y && below.y > top) {
+      if (is_inside)
+        b->count = (size_t)(cut_line(top, above, below, b->pieces + b->count) - b->pieces);
+      else
+        cut_clipped(a, above, below, b);
     }
-    if (s.count > PIECES - 2 * CS_MAP_ROWS)
-      add_pieces(a, &t, &s);
+    if (b->count > PIECES - 2 * CS_MAP_ROWS) {
+      end_run(b, live);
+      add_pieces(a, b);
+    }
     if (below.y > foot)
       break;
   }
-  add_pieces(a, &t, &s);
+  end_run(b, live);
   live->next = at;
 }
 
 void CS_WIDE(cs_map_add)(const cs_map_adding *adding) {
   cs_map_rows *rows = adding->rows;
   const int32_t end = adding->sums->width * CS_MAP_UNIT;
+  batch b;
+  b.count = b.run_count = 0;
   for (size_t i = 0; i < rows->live_count; i++) {
     cs_map_live *live = &rows->lives[i];
-    if (live->varies)
-      add_border(adding, live, true, false);
-    else if (live->low >= 0 && live->high < end)
-      add_border(adding, live, false, true);
+    if (live->low >= 0 && live->high < end)
+      add_border(adding, live, true, &b);
     else
-      add_border(adding, live, false, false);
+      add_border(adding, live, false, &b);
   }
+  add_pieces(adding, &b);
 }
