@@ -27,7 +27,7 @@ static inline void add_point(const maker *m, cs_course_point *points, cs_course 
   const cs_course_point *before = last - 1;
   if (course->count > 1 && before->y >= m->foot)
     return;
-  *last = (cs_course_point){round_to_unit(x), round_to_unit(y), 0};
+  *last = (cs_course_point){round_to_unit(x), round_to_unit(y)};
   if (course->count > 0 && last->y < before->y)
     last->y = before->y;
   if (course->count == 1 && (last->y == before->y || last->y <= m->top)) /* or a jump at the top */
@@ -75,17 +75,13 @@ static void add_piece(const maker *m, const cs_boundary_piece *piece, cs_course_
   }
 }
 
-/* Leaves out a jump at the foot, and a course without height; finds the slopes. */
+/* Leaves out a jump at the foot, and a course without height. */
 static void end_course(cs_courses *out, cs_course *course) {
   cs_course_point *points = out->points + course->first;
   while (course->count > 1 && points[course->count - 2].y == points[course->count - 1].y)
     course->count--;
   if (course->count < 2)
     course->count = 0;
-  for (uint32_t k = 0; k + 1 < course->count; k++) {
-    double height = (double)points[k + 1].y - points[k].y;
-    points[k].slope = height > 0 ? ((double)points[k + 1].x - points[k].x) / height : 0;
-  }
   out->point_count += course->count;
 }
 
@@ -141,8 +137,8 @@ void cs_courses_add_upright(cs_courses *courses, double x, int32_t top, int32_t 
   cs_course_point *points = courses->points + courses->point_count;
   courses->courses[courses->course_count++] = (cs_course){courses->point_count, 2};
   courses->point_count += 2;
-  points[0] = (cs_course_point){round_to_unit(x), top, 0};
-  points[1] = (cs_course_point){round_to_unit(x), foot, 0};
+  points[0] = (cs_course_point){round_to_unit(x), top};
+  points[1] = (cs_course_point){round_to_unit(x), foot};
 }
 
 void cs_courses_finish(cs_courses *courses, cs_memory *memory) {

@@ -20,9 +20,10 @@
 
 #define CS_COURSE_UNIT 65536 /* parts of a pixel */
 
+/* A drawing has hundreds of thousands of points, and few are asked for x between two of them: so
+ * slopes are not kept. */
 typedef struct cs_course_point {
   int32_t x, y;
-  double slope; /* change of x by y down to the next point; 0 at a jump and at the end */
 } cs_course_point;
 
 typedef struct cs_course {
@@ -51,5 +52,9 @@ void cs_courses_finish(cs_courses *courses, cs_memory *memory);
 
 /* x at a height of the segment that begins at a point and is no jump. */
 static inline double cs_course_x(const cs_course_point *from, int32_t y) {
-  return y == from[1].y ? from[1].x : from->x + (y - from->y) * from->slope;
+  if (y == from[1].y)
+    return from[1].x;
+  if (y == from->y)
+    return from->x;
+  return from->x + (y - from->y) * (((double)from[1].x - from->x) / ((double)from[1].y - from->y));
 }
