@@ -173,7 +173,7 @@ end
 local gaits = {
   walk = { stride = 1.4, pace = 2, share = 0.58, lift = 0.17, bounce = 0.045, lean = 4, swing = 26,
            bend = 18 },
-  run = { stride = 2.6, pace = 3, share = 0.36, lift = 0.4, bounce = 0.1, lean = 10, swing = 48,
+  run = { stride = 2.6, pace = 3, share = 0.32, lift = 0.4, bounce = 0.06, lean = 10, swing = 48,
           bend = 80 },
   trot = { stride = 1.7, pace = 2.8, share = 0.52, lift = 0.2, bounce = 0.035, lean = 1 },
   gallop = { stride = 3, pace = 4, share = 0.4, lift = 0.3, bounce = 0.08, lean = 4 },
@@ -293,9 +293,13 @@ function people.idle(rig, time)
   local _, _, bounce = gait_of(rig, "idle")
   refuse_time("idle", time)
   local breath = (1 - math.cos(2 * math.pi * time / 3.5)) / 2
-  local pose = { at = { 0, bounce * breath / 2 }, reach = {} }
-  add_limbs(pose, rig, { lean = breath, swing = breath }, 0.2 * time)
-  for _, leg in ipairs(legs_of(rig)) do pose.reach[leg.joint] = { leg.x, leg.y } end
+  local pose = { at = { 0, bounce * (1 - breath) / 4 }, reach = {} }
+  add_limbs(pose, rig, { lean = breath, swing = 3, bend = 4 }, 0.2 * time)
+  pose.body = { rotate = pose.body, stretch = 1 + 0.015 * breath }
+  for _, leg in ipairs(legs_of(rig)) do
+    pose.reach[leg.joint] = { leg.x, leg.y }
+    if leg.foot then pose[leg.foot] = { absolute = 0 } end
+  end
   return pose
 end
 
@@ -310,7 +314,7 @@ function people.wave(rig, time, options)
       options and options.side or "near")
   end
   local facing = rig.__figure.facing
-  return { ["upper arm " .. side] = -130 * facing,
+  return { ["upper arm " .. side] = -105 * facing,
            ["lower arm " .. side] = facing * (22 * wave(2 * time) - 24), head = -4 * facing }
 end
 

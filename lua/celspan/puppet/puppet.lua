@@ -155,14 +155,17 @@ local function read_switches(rig, given)
   end
 end
 
+local function is_artwork(value)
+  return is_of("celspan.svg", value) or is_of("celspan.layers.tree", value)
+end
+
 --- The parts of an artwork by name.
 local function parts_of(art)
-  local is_drawing = is_of("celspan.svg", art)
-  if not is_drawing and not is_of("celspan.layers.tree", art) then
+  if not is_artwork(art) then
     refuse("field 'art' must be what svg.read or layers.read returns, with its parts, got %s",
       fields.kind(art))
   end
-  return (is_drawing and drawn_parts or painted_parts)(art)
+  return (is_of("celspan.svg", art) and drawn_parts or painted_parts)(art)
 end
 
 local function new(_, given)
@@ -179,16 +182,15 @@ local function new(_, given)
   return setmetatable(rig, Rig)
 end
 
---- The function that makes a rig of artwork whose parts have the usual names.
-local function maker(kind)
-  return function(given)
-    fields.check("puppet: " .. kind, given, known)
-    local by_name = parts_of(given.art)
-    local settings, figure = people.settings(kind, given, by_name, (drawn_joints(by_name)))
-    local rig = new(nil, settings)
-    rig.__figure = figure
-    return rig
-  end
+--- A rig of artwork whose parts have the usual names.
+local function figure(kind, given)
+  if is_artwork(given) then refuse("write puppet.%s { art = ... }, a table", kind) end
+  fields.check("puppet: " .. kind, given, known)
+  local by_name = parts_of(given.art)
+  local settings, about = people.settings(kind, given, by_name, (drawn_joints(by_name)))
+  local rig = new(nil, settings)
+  rig.__figure = about
+  return rig
 end
 
 -- ---------------------------------------------------------------- poses
@@ -465,7 +467,7 @@ end
 
 --- How far the figure has gone in a gait: what moves its poses on, so that the feet stay.
 ---@param time number Seconds
----@param options? celspan.puppet.gait
+---@param options? celspan.puppet.options
 ---@return number
 function methods:walked(time, options)
   fields.self("puppet", Rig, self, "walked")
@@ -497,27 +499,78 @@ function methods:sheet(pose, options)
   return celspan.union(marks):translate(at[1], at[2])
 end
 
----@class celspan.puppet.gait
+---@class celspan.puppet.options
 ---@field stride? number The way while each foot makes one step, in units; default: by the legs
----@field pace? number Steps a second
----@field bounce? number How far the body goes up and down, in units
+---@field pace? number Steps a second, more than 0; default 2 of walk, 3 of run
+---@field bounce? number How far the body goes up and down, in units; default: by the legs
 ---@field gait? "walk"|"run"|"trot"|"gallop" For rig:walked; default "walk"
 
 ---@class celspan.puppet
 ---@overload fun(settings: table): celspan.puppet.rig
----@field person fun(settings: table): celspan.puppet.rig A rig of a drawing whose parts have the usual names: head, body, upper arm, lower arm, hand, thigh, shin, foot, near and far
----@field animal fun(settings: table): celspan.puppet.rig The same for four legs
----@field walk fun(rig: celspan.puppet.rig, time: number, options?: celspan.puppet.gait): table A pose in place
----@field run fun(rig: celspan.puppet.rig, time: number, options?: celspan.puppet.gait): table
----@field trot fun(rig: celspan.puppet.rig, time: number, options?: celspan.puppet.gait): table
----@field gallop fun(rig: celspan.puppet.rig, time: number, options?: celspan.puppet.gait): table
----@field idle fun(rig: celspan.puppet.rig, time: number): table A pose that breathes
----@field wave fun(rig: celspan.puppet.rig, time: number, options?: { side?: string }): table A raised arm
----@field turn_head fun(rig: celspan.puppet.rig, degrees: number): table
-local puppet = { steps = steps, person = maker "person", animal = maker "animal",
-                 idle = people.idle, wave = people.wave, turn_head = people.turn_head }
-for _, gait in ipairs { "walk", "run", "trot", "gallop" } do
-  puppet[gait] = function(rig, time, options) return people.pose(rig, gait, time, options) end
-end
+local puppet = {}
+
+--- Feet that walk: each one stays at its place on the ground while the body moves over it.
+---@param settings { stride: number, period: number, lift?: number, ground: number, x?: number, share?: number } stride: what the body moves in a period, in which each foot makes one step, negative to the left; lift: of a foot (stride / 8); ground: y of the joint on the ground; x: of the joint in the drawing (0); share: of the period that a foot is on the ground (0.6)
+---@return celspan.puppet.steps
+function puppet.steps(settings) return steps(settings) end
+
+--- A rig of a drawing whose parts have the usual names: head, body, upper arm, lower arm, hand,
+--- thigh, shin, foot, each limb near or far. puppet.person { art = svg.load "hero.svg" }
+---@param settings { art: celspan.svg|celspan.layers.tree, joints?: table<string, number[]>, bones?: table[], switches?: table }
+---@return celspan.puppet.rig
+function puppet.person(settings) return figure("person", settings) end
+
+--- A rig of an animal with four legs, of the usual names: body, head, tail, ear, thigh, shank,
+--- foot, upper, fore, paw. puppet.animal { art = layers.load "fox.ora" }
+---@param settings { art: celspan.svg|celspan.layers.tree, joints?: table<string, number[]>, bones?: table[], switches?: table }
+---@return celspan.puppet.rig
+function puppet.animal(settings) return figure("animal", settings) end
+
+--- A walk in place: rig:pose(puppet.walk(rig, time)):translate(rig:walked(time), 0).
+---@param rig celspan.puppet.rig What puppet.person or puppet.animal returns
+---@param time number Seconds, of any size
+---@param options? celspan.puppet.options
+---@return table pose
+function puppet.walk(rig, time, options) return people.pose(rig, "walk", time, options) end
+
+--- A run in place, which rig:walked(time, { gait = "run" }) moves on.
+---@param rig celspan.puppet.rig What puppet.person or puppet.animal returns
+---@param time number Seconds, of any size
+---@param options? celspan.puppet.options
+---@return table pose
+function puppet.run(rig, time, options) return people.pose(rig, "run", time, options) end
+
+--- A trot in place, of an animal, which rig:walked(time, { gait = "trot" }) moves on.
+---@param rig celspan.puppet.rig What puppet.person or puppet.animal returns
+---@param time number Seconds, of any size
+---@param options? celspan.puppet.options
+---@return table pose
+function puppet.trot(rig, time, options) return people.pose(rig, "trot", time, options) end
+
+--- A gallop in place, of an animal, which rig:walked(time, { gait = "gallop" }) moves on.
+---@param rig celspan.puppet.rig What puppet.person or puppet.animal returns
+---@param time number Seconds, of any size
+---@param options? celspan.puppet.options
+---@return table pose
+function puppet.gallop(rig, time, options) return people.pose(rig, "gallop", time, options) end
+
+--- A pose that breathes in its place, the feet on the ground: for rig:pose.
+---@param rig celspan.puppet.rig What puppet.person or puppet.animal returns
+---@param time number Seconds, of any size
+---@return table pose
+function puppet.idle(rig, time) return people.idle(rig, time) end
+
+--- A raised arm that waves: rig.layer(puppet.idle(rig, time), puppet.wave(rig, time)).
+---@param rig celspan.puppet.rig What puppet.person returns
+---@param time number Seconds, of any size
+---@param options? { side?: string } side: "near" (default) or "far"
+---@return table pose
+function puppet.wave(rig, time, options) return people.wave(rig, time, options) end
+
+--- The head turned.
+---@param rig celspan.puppet.rig
+---@param degrees number Clockwise
+---@return table pose
+function puppet.turn_head(rig, degrees) return people.turn_head(rig, degrees) end
 
 return fields.publish("puppet", setmetatable(puppet, { __call = native.entry(new) }), methods)

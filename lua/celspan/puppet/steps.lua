@@ -15,9 +15,6 @@ local Steps = fields.class("celspan.puppet.steps", "steps")
 local known_steps = { stride = "number", period = "number", lift = "number", ground = "number",
                       x = "number", share = "number" }
 
---- Feet that walk: each one stays at its place on the ground while the body moves over it.
----@param settings { stride: number, period: number, lift?: number, ground: number, x?: number, share?: number } stride: what the body moves in a period, in which each foot makes one step, negative to the left; lift: of a foot (stride / 8); ground: y of the joint on the ground; x: of the joint in the drawing (0); share: of the period that a foot is on the ground (0.6)
----@return celspan.puppet.steps
 local function steps(settings)
   fields.check("puppet: steps", settings, known_steps)
   for _, name in ipairs { "stride", "period", "ground" } do

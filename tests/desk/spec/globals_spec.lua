@@ -141,6 +141,17 @@ print(circle and seen)]])
     assert.are.same({ "warning", "film.lua", 1 }, { list[1].level, list[1].file, list[1].line })
   end)
 
+  it("that is a colour without quotes is a warning", function()
+    bench:write("film.lua", "local blue, t = 'blue', { red = 1 }\nlocal c = circle { 1, 1, 1, "
+      .. "fill = red }\nlocal d = { blue, t.red, tan = 2, gold and 1 }" .. END)
+    local _, out, err = bench:celspan_inside "check film.lua --json"
+    local list = json.decode(out)
+    assert.are.equal(1, #list, out .. err)
+    assert.matches("nothing has the name 'red' here; did you mean \"red\", in quotes?",
+      list[1].message, 1, true)
+    assert.are.equal(2, list[1].line)
+  end)
+
   it("makes a value that check finds to be thrown away", function()
     bench:write("film.lua", "return film { size = { 2, 2 }, frame = function()\n"
       .. "  circle { 1, 1, 1 }:scale(2)\n  return {}\nend }")

@@ -860,6 +860,8 @@ describe("a person", function()
     local idle = puppet.idle(child, 0.7)
     local x, y = child:joint(idle, "ankle near")
     assert.is_true(math.abs(x - 150) + math.abs(y - 316) < 1e-9)
+    x, y = child:joint(idle, "toe") -- the foot is flat
+    assert.is_true(math.abs(x - 180) + math.abs(y - 330) < 1e-9)
     local pose = child.layer(child.mix(puppet.walk(child, 0.2), idle, 0.5),
       puppet.wave(child, 0.2, { side = "left" }))
     assert.is_true(select(2, child:joint(pose, "hand near")) < select(2, child:joint(pose, "neck")))
@@ -872,6 +874,9 @@ describe("a person", function()
     raised.each {
       ["puppet: the artwork has no part 'body': person needs one, named body or torso"] = function()
         puppet.person { art = drawn { head = "0,0,40,90" } }
+      end,
+      ["puppet: write puppet.person { art = ... }, a table"] = function()
+        puppet.person(drawn { body = "0,0,40,90" })
       end,
       ["puppet: the person has no legs: parts such as 'thigh near'"] = function()
         puppet.walk(rig, 0)

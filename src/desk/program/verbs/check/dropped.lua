@@ -7,6 +7,7 @@
 -- Only what is certain is reported: names that are parameters, or have values of two types, have
 -- no type here, although they may have one when the script runs.
 local program = ...
+local celspan = require "celspan"
 local files = require "celspan.files"
 local manual = require "celspan.manual"
 local native = require "celspan.native"
@@ -287,11 +288,32 @@ local function add_hiding(sentences, path, text)
   end
 end
 
+local BEFORE = { ["="] = true, [","] = true, ["{"] = true, ["("] = true, ["or"] = true }
+local AFTER = { [","] = true, ["}"] = true, [")"] = true, [";"] = true, ["or"] = true }
+
+--- Adds a sentence for each name of a colour that stands for a value, but that nothing has: `fill =
+--- red` for `fill = "red"`.
+local function add_unquoted(sentences, path, list)
+  local bindings
+  for i, token in ipairs(list) do
+    local is_value = token.kind == "name" and i > 1 and BEFORE[list[i - 1].kind]
+      and AFTER[(list[i + 1] or token).kind]
+    if is_value and _G[token.text] == nil and pcall(celspan.rgb, token.text) then
+      bindings = bindings or bindings_of(list)
+      if not bindings[token.text] then
+        sentences[#sentences + 1] = ("%s:%d: nothing has the name '%s' here; did you mean \"%s\", "
+          .. "in quotes?"):format(path, token.line, token.text, token.text)
+      end
+    end
+  end
+end
+
 --- Adds a sentence, with the file's path, for each value that a text does not use. Returns the
 --- modules that the text requires.
 local function add_dropped(sentences, path, text)
   add_hiding(sentences, path, text)
   local list = tokens.of(text)
+  add_unquoted(sentences, path, list)
   local places = calls_of(list)
   if #places > 0 and not next(calls) then calls, parents = manual.types() end
   local types = #places > 0 and types_of(list)
@@ -317,9 +339,9 @@ local function add_file(sentences, folder, path, is_seen, text)
   end
 end
 
---- A sentence, with file and line, for each value that is not used, and each global that hides a
---- name, in a script, or in modules beside it that it requires. text: of the script, if it is not
---- a file.
+--- A sentence, with file and line, for each value that is not used, each global that hides a name,
+--- and each colour without quotes, in a script, or in modules beside it that it requires. text: of
+--- the script, if it is not a file.
 function dropped.of_script(path, text)
   local sentences = {}
   if text and #text <= BYTES_MOST or program.has_ending(path, ".lua") then
