@@ -1,5 +1,6 @@
---- The font of the scripts and tests, drawn with a round pen: capitals, small capitals, digits,
---- some signs, and a few letters of other scripts, in any weight from 200 to 900.
+--- The font of the scripts and tests, drawn with a round pen: capitals, small capitals, both with
+--- the accents of European languages, digits, signs, and a few letters of other scripts, in any
+--- weight from 200 to 900.
 ---
 ---   lua5.4 tests/support/block.lua OUT.ttf      scripts/type/block.ttf is what it makes
 ---
@@ -78,6 +79,83 @@ local signs = {
   { "一", 760, "L 0 320 760 320" }, { "二", 760, "L 90 500 670 500", "L 0 80 760 80" },
   { "三", 760, "L 60 600 700 600", "L 120 340 640 340", "L 0 60 760 60" },
   { "。", 120, "A 60 40 60 0 360" },
+}
+
+local more_signs = {
+  { "%", 490, "L 410 612 80 0", "A 90 500 90 0 360", "A 400 112 90 0 360" },
+  { "&", 440, "A 175 472 140 -40 225", "L 76 373 440 0", "L 282 382 54 291",
+    "A 160 165 165 130 340", "L 315 109 440 270" },
+  { "@", 600, "A 300 290 300 0 305", "L 600 290 600 220", "A 520 220 80 180 360",
+    "A 285 290 155 0 360", "L 440 440 440 220" },
+  { "€", 460, "A 270 382 230 30 180", "L 40 382 40 230", "A 270 230 230 180 330",
+    "L -20 376 300 376", "L -20 236 300 236" },
+  { "$", 400, "L 380 612 153 612", "A 153 459 153 90 270", "L 153 306 247 306",
+    "A 247 153 153 -90 90", "L 247 0 0 0", "L 200 612 200 710", "L 200 0 200 -98" },
+  { "£", 400, "L 0 0 390 0", "L 110 0 110 462", "A 260 462 150 20 180", "L 0 290 290 290" },
+  { "¥", 440, "L 0 612 220 290 440 612", "L 220 290 220 0", "L 50 250 390 250",
+    "L 50 100 390 100" },
+  { "¢", 340, "A 200 276 200 45 315", "L 200 476 200 580", "L 200 76 200 -28" },
+  { "#", 440, "L 160 612 110 0", "L 340 612 290 0", "L 0 410 440 410", "L 0 190 440 190" },
+  { "*", 242, "L 121 612 121 332", "L 0 542 242 402", "L 0 402 242 542" },
+  { "[", 120, "L 120 650 0 650 0 -40 120 -40" }, { "]", 120, "L 0 650 120 650 120 -40 0 -40" },
+  { "{", 160, "L 160 650 120 650 75 605 75 360 0 305 75 250 75 5 120 -40 160 -40" },
+  { "}", 160, "L 0 650 40 650 85 605 85 360 160 305 85 250 85 5 40 -40 0 -40" },
+  { "<", 260, "L 260 106 0 306 260 506" }, { "\\", 300, "L 300 -40 0 650" },
+  { "|", 0, "L 0 690 0 -80" }, { "_", 440, "L 0 -70 440 -70" },
+  { "^", 260, "L 0 480 130 612 260 480" }, { "`", 70, "L 0 612 70 520" },
+  { "~", 400, "A 100 236 140 45 135", "A 300 436 140 225 315" },
+  { "‘", 30, "L 0 620 30 500" }, { "“", 150, "L 0 620 30 500", "L 120 620 150 500" },
+  { "”", 150, "L 30 620 0 500", "L 150 620 120 500" }, { "‚", 40, "L 40 10 0 -110" },
+  { "„", 170, "L 40 10 0 -110", "L 170 10 130 -110" },
+  { "‹", 130, "L 130 160 0 306 130 452" }, { "›", 130, "L 0 160 130 306 0 452" },
+  { "«", 290, "L 130 160 0 306 130 452", "L 290 160 160 306 290 452" },
+  { "»", 290, "L 0 160 130 306 0 452", "L 160 160 290 306 160 452" },
+  { "¿", 330, "A 165 165 165 90 350", "L 165 330 165 422", "L 165 612 165 612" },
+  { "¡", 0, "L 0 0 0 422", "L 0 612 0 612" },
+  { "×", 320, "L 0 146 320 466", "L 0 466 320 146" }, { "−", 400, "L 0 306 400 306" },
+  { "÷", 400, "L 0 306 400 306", "L 200 500 200 500", "L 200 112 200 112" },
+  { "±", 400, "L 0 366 400 366", "L 200 186 200 546", "L 0 0 400 0" },
+  { "°", 156, "A 78 534 78 0 360" }, { "•", 70, "L 0 306 70 306", "L 35 271 35 341" },
+  { "©", 600, "A 300 306 300 0 360", "A 300 306 130 50 310" },
+  { "²", 200, "A 100 512 100 -30 165", "L 187 462 0 290 200 290" },
+  { "³", 190, "A 100 532 80 -90 150", "A 100 372 80 -150 90" },
+  { "←", 560, "L 0 306 560 306", "L 160 150 0 306 160 462" },
+  { "↑", 312, "L 156 0 156 612", "L 0 452 156 612 312 452" },
+  { "↓", 312, "L 156 0 156 612", "L 0 160 156 0 312 160" },
+  { "✓", 440, "L 0 280 150 110 440 560" },
+}
+
+-- Letters of their own: the capital, the small letter, how far the pen moves, its movements.
+local own_letters = {
+  { "Æ", "æ", 640, "L 0 0 290 612 640 612", "L 90 190 320 190", "L 320 612 320 0 640 0",
+    "L 320 306 590 306" },
+  { "Œ", "œ", 720, "A 250 362 250 90 180", "L 0 362 0 250", "A 250 250 250 180 270",
+    "L 250 612 720 612", "L 250 0 720 0", "L 390 0 390 612", "L 390 306 660 306" },
+  { "Ø", "ø", 500, "A 250 362 250 0 180", "L 0 362 0 250", "A 250 250 250 180 360",
+    "L 500 250 500 362", "L 20 -30 480 642" },
+  { "Ł", "ł", 380, "L 40 612 40 0 380 0", "L -40 230 190 390" },
+  { "Ð", "ð", 440, "L 194 0 0 0 0 612 194 612", "A 194 366 246 0 90", "L 440 366 440 246",
+    "A 194 246 246 -90 0", "L -90 306 170 306" },
+  { "Þ", "þ", 390, "L 0 0 0 612", "A 226 306 164 -90 90", "L 0 142 226 142", "L 0 470 226 470" },
+  { "ẞ", "ß", 395, "L 0 0 0 440", "A 172 440 172 35 180", "L 313 539 190 350 220 350",
+    "A 220 175 175 -90 90", "L 220 0 140 0" },
+}
+
+-- Accents, from the middle of their lower end: the movements, and the letters that bear them.
+local accents = {
+  { "L -35 0 50 70", "AÁá CĆć EÉé IÍí LĹĺ NŃń OÓó RŔŕ SŚś UÚú YÝý ZŹź" },
+  { "L 35 0 -50 70", "AÀà EÈè IÌì OÒò UÙù" },
+  { "L -85 0 0 65 85 0", "AÂâ EÊê IÎî OÔô UÛû WŴŵ YŶŷ" },
+  { "L -85 65 0 0 85 65", "CČč DĎď EĚě NŇň RŘř SŠš TŤť ZŽž" },
+  { "L -85 25 -85 25", "L 85 25 85 25", "AÄä EËë IÏï OÖö UÜü YŸÿ" },
+  { "A -55 -60 90 52 128", "A 55 82 90 232 308", "AÃã NÑñ OÕõ" },
+  { "L -90 25 90 25", "AĀā EĒē IĪī OŌō UŪū" },
+  { "L -95 0 -40 70", "L 45 0 100 70", "OŐő UŰű" },
+  { "A 0 80 80 200 340", "AĂă GĞğ" },
+  { "L 0 25 0 25", "CĊċ EĖė GĠġ ZŻż" },
+  { "A 0 35 68 0 360", "AÅå UŮů" },
+  { "L 10 0 -35 -115", "CÇç SŞş TŢţ", is_below = true },
+  { "L 0 0 -45 -80 30 -120", "AĄą EĘę", is_below = true, at = 1 },
 }
 
 local kerning = { { "A", "T", -70 }, { "A", "V", -90 }, { "A", "Y", -90 }, { "F", "A", -60 },
@@ -161,6 +239,32 @@ end
 
 local block = {}
 
+--- How an accent lies on a letter: to the right, and up.
+local function place_of(accent, base, scale)
+  local gap = accent[1]:find "^A 0 35" and base == "A" and 64 or 140 -- the ring of Å touches it
+  return rounded(scale * W[base][1] * (accent.at or 0.5)),
+    accent.is_below and 0 or rounded(scale * 612 + gap)
+end
+
+--- Adds the letters with an accent, each made of two glyphs. number: of the glyphs, by name; add:
+--- adds a glyph of movements, and returns its number.
+local function add_accents(glyphs, number, add)
+  for i, accent in ipairs(accents) do
+    local movements = table.move(accent, 1, #accent - 1, 2, { -2 * LEFT })
+    local mark = add("accent " .. i, {}, movements, 1)
+    for base, capital, small in accent[#accent]:gmatch "(%a)([\xc0-\xff][\x80-\xbf])(%S+)" do
+      for k, character in ipairs { capital, small } do
+        local letter = number[k == 1 and base or base:lower()]
+        local x, y = place_of(accent, base, k == 1 and 1 or SMALL)
+        local wide = base == "I" and 60 or 0
+        glyphs[#glyphs + 1] = { characters = { utf8.codepoint(character) },
+          advance = glyphs[letter].advance + 2 * wide,
+          components = { { letter, wide, 0 }, { mark, x + wide, y } } }
+      end
+    end
+  end
+end
+
 --- The description that truetype.build takes.
 function block.font()
   local glyphs, number = {}, {}
@@ -170,6 +274,7 @@ function block.font()
     for field, half in pairs(pens) do glyph[field] = draw(movements, half, scale) end
     glyphs[#glyphs + 1] = glyph
     number[name] = #glyphs
+    return #glyphs
   end
   add("none", {}, { 340, "L 0 0 340 0 340 612 0 612 0 0" }, 1)
   add("space", { 0x20, 0xa0 }, { 160 }, 1)
@@ -181,6 +286,15 @@ function block.font()
     add(sign[1], { utf8.codepoint(sign[1]) }, table.move(sign, 2, #sign, 1, {}), 1)
   end
   add("acute", { 0x301 }, { -140, "L -300 660 -220 740" }, 1) -- a mark: it has no advance
+  for _, sign in ipairs(more_signs) do
+    add(sign[1], { utf8.codepoint(sign[1]) }, table.move(sign, 2, #sign, 1, {}), 1)
+  end
+  for _, letter in ipairs(own_letters) do
+    local movements = table.move(letter, 3, #letter, 1, {})
+    add(letter[1], { utf8.codepoint(letter[1]) }, movements, 1)
+    add(letter[2], { utf8.codepoint(letter[2]) }, movements, SMALL)
+  end
+  add_accents(glyphs, number, add)
   local pairs_of = {}
   for i, one in ipairs(kerning) do pairs_of[i] = { number[one[1]], number[one[2]], one[3] } end
   table.sort(pairs_of, function(a, b)

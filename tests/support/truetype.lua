@@ -7,8 +7,9 @@
 ---
 --- A glyph is { characters = { 65 }, advance = 600, contours = { { {x, y, is_on}, ... }, ... } },
 --- and with an axis `least` and `most`: contours with as many points. The first one represents
---- missing characters. Numbers in `kerning` and `ligatures` are those of glyphs, from 1. Source:
---- OpenType 1.9.
+--- missing characters. In place of contours a glyph may have components = { { glyph, dx, dy },
+--- ... }: other glyphs that have contours, moved. Numbers in components, `kerning` and `ligatures`
+--- are those of glyphs, from 1. Source: OpenType 1.9.
 local truetype = {}
 
 local function u16(n) return string.pack(">I2", n & 0xffff) end
@@ -41,7 +42,28 @@ local function bounds_of(points)
   return #points > 0 and box or { 0, 0, 0, 0 }
 end
 
-local function glyf_entry(glyph)
+--- The bounds of a glyph, also of one that is made of others.
+local function glyph_bounds(font, glyph)
+  local corners = {}
+  for _, part in ipairs(glyph.components or {}) do
+    local box = bounds_of(points_of(font.glyphs[part[1]].contours))
+    corners[#corners + 1] = { box[1] + part[2], box[2] + part[3] }
+    corners[#corners + 1] = { box[3] + part[2], box[4] + part[3] }
+  end
+  return bounds_of(glyph.components and corners or points_of(glyph.contours))
+end
+
+local function composite_entry(font, glyph)
+  local parts = {}
+  for i, part in ipairs(glyph.components) do -- offsets in words, and whether more parts follow
+    parts[i] = u16(i < #glyph.components and 0x23 or 3) .. u16(part[1] - 1) .. i16(part[2])
+      .. i16(part[3])
+  end
+  return padded(i16(-1) .. all(glyph_bounds(font, glyph), i16) .. table.concat(parts), 4)
+end
+
+local function glyf_entry(font, glyph)
+  if glyph.components then return composite_entry(font, glyph) end
   local points = points_of(glyph.contours)
   if #points == 0 then return "" end
   local ends, flags, xs, ys, count, x, y = {}, {}, {}, {}, 0, 0, 0
@@ -61,7 +83,7 @@ end
 local function outlines(font)
   local glyf, loca, at = {}, {}, 0
   for i, glyph in ipairs(font.glyphs) do
-    glyf[i], loca[i] = glyf_entry(glyph), u32(at)
+    glyf[i], loca[i] = glyf_entry(font, glyph), u32(at)
     at = at + #glyf[i]
   end
   return table.concat(glyf), table.concat(loca) .. u32(at)
@@ -82,18 +104,19 @@ local function hhea(font)
 end
 
 local function maxp(font)
-  local points, contours = 0, 0
+  local points, contours, parts = 0, 0, 0
   for _, glyph in ipairs(font.glyphs) do
-    points = math.max(points, #points_of(glyph.contours))
-    contours = math.max(contours, #glyph.contours)
+    points = math.max(points, #points_of(glyph.contours or {}))
+    contours = math.max(contours, #(glyph.contours or {}))
+    parts = math.max(parts, #(glyph.components or {}))
   end
-  return u32(0x10000) .. u16(#font.glyphs) .. u16(points) .. u16(contours) .. ("\0"):rep(4)
-    .. u16(2) .. ("\0"):rep(16)
+  return u32(0x10000) .. u16(#font.glyphs) .. u16(points) .. u16(contours) .. u16(points * parts)
+    .. u16(contours * parts) .. u16(2) .. ("\0"):rep(12) .. u16(parts) .. u16(parts > 0 and 1 or 0)
 end
 
 local function hmtx(font)
   return all(font.glyphs, function(glyph)
-    return u16(glyph.advance) .. i16(bounds_of(points_of(glyph.contours))[1])
+    return u16(glyph.advance) .. i16(glyph_bounds(font, glyph)[1])
   end)
 end
 
@@ -205,7 +228,7 @@ end
 
 --- The changes of a glyph towards the least and the greatest value of the axis, for all its points.
 local function gvar_entry(glyph)
-  local from = points_of(glyph.contours)
+  local from = points_of(glyph.contours or {}) -- the parts of a composite change by themselves
   if #from == 0 then return "" end
   local headers, data = {}, {}
   for i, peak in ipairs { -1, 1 } do

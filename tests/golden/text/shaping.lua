@@ -1,5 +1,5 @@
--- Kerning, a mark on a letter, a ligature and the same two letters without it, two weights between
--- the drawn ones, and letters each placed individually.
+-- Kerning, a letter with its accent, a ligature and the same two letters without it, two weights
+-- between the drawn ones, and letters each placed individually.
 local celspan = require "celspan"
 local FONT = "../../../scripts/type/block.ttf"
 local function set(phrase, x, y, more)
