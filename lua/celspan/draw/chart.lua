@@ -7,6 +7,7 @@
 --
 -- The box has the labels inside it. They are as many as have room, so none covers another.
 local native = require "celspan.native"
+local colour = require "celspan.colour"
 local count = require "celspan.count"
 local data = require "celspan.chart_data"
 local fields = require "celspan.fields"
@@ -30,7 +31,7 @@ local known = { kind = "string", data = "table", x = "string", y = "any", box = 
                 axes = "boolean", legend = "boolean", values = "boolean", hole = "number",
                 colours = "table", ink = "any", font = "any", size = "number",
                 language = "string", format = "function", progress = "number",
-                lie = "boolean", most = "number", highlight = "string" }
+                lie = "boolean", most = "number", highlight = "any" }
 
 local function check(given)
   given = fields.check("chart", given, known)
@@ -90,7 +91,14 @@ local function writer(given)
   end
 end
 
---- The settings with their defaults. cap: the height of capitals.
+--- The background on which an ink is seen.
+local function paper_of(ink)
+  local is_colour, lightness = pcall(colour.parts, ink)
+  return is_colour and lightness > 0.65 and "#000" or "#fff"
+end
+
+--- The settings with their defaults. cap: the height of capitals; has_numbers, has_names: whether
+--- the numbers of the axis of values and the names of the rows are written.
 local function read(given)
   local colours, box = given.colours or COLOURS, given.box
   local style = { font = given.font, size = given.size or SIZE * (box[3] + box[4]),
@@ -101,8 +109,10 @@ local function read(given)
     kind = given.kind, data = columns, box = box, axes = axes, legend = given.legend,
     values = given.values and given.font ~= nil and given.kind == "bar",
     hole = given.hole or 0, style = style,
-    has_labels = axes and given.font ~= nil, language = given.language,
-    written = writer(given), progress = math.max(0, math.min(1, given.progress or 1)),
+    has_numbers = axes and given.font ~= nil, paper = paper_of(style.texture),
+    has_names = given.font ~= nil and (axes or given.kind == "bar" and given.x ~= nil),
+    language = given.language, written = writer(given), has_format = given.format ~= nil,
+    progress = math.max(0, math.min(1, given.progress or 1)),
     sums = given.kind == "area" and sums_of(columns) or nil,
     lie = given.lie, most = given.most,
     highlight = given.highlight and data.row_of(columns, given.highlight),
@@ -128,15 +138,15 @@ end
 ---@field size? number Of the letters; default: by the box
 ---@field ink? celspan.surface Of letters and axes
 ---@field colours? celspan.surface[] Of the series, or of the slices of a pie
----@field axes? boolean Default true
+---@field axes? boolean Default true; without them bars keep the names of `x`
 ---@field legend? boolean The names of series; default: where there are several
 ---@field values? boolean The values at bars; default false
 ---@field lie? boolean Of bars: they lie, and each name is beside its bar
 ---@field most? number The end of the axis of values, if no value is greater
----@field highlight? string Of bars: "max" or the name of one; the others are pale
+---@field highlight? string|false Of bars: "max" or the name of one; the others are pale
 ---@field hole? number Of a pie: a share of its radius
 ---@field language? string Of the numbers, as for celspan.count
----@field format? fun(value: number): string How values are written
+---@field format? fun(value: number): string How values are written, also those of a pie, which are shares without it
 ---@field progress? number 0 to 1 (1)
 
 ---@class celspan.chart

@@ -129,7 +129,7 @@ function data.row_of(columns, word)
     if value and (not best or value > columns.series[1].values[best]) then best = i end
   end
   return word == "max" and best or refuse("field 'highlight' must be \"max\" or a name, got '%s'%s",
-    word, fields.hint(word, names) or "")
+    fields.key(word), fields.hint(word, names) or "")
 end
 
 --- The least and the greatest value, and whether all are whole numbers; 0, 0 where there are none.

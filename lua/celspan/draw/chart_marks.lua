@@ -46,7 +46,7 @@ local function grown(chart, i)
   return bar_ease(motion.stagger(chart.progress, i, chart.data.count, OVERLAP))
 end
 
-local PALE = 0.35 -- bars beside the one that is highlighted
+local PALE = 0.35 -- bars beside the one that is highlighted, on the paper
 local SWAP = { 0, 1, 0, 1, 0, 0, 0, 0, 1 } -- of x and y, for bars that lie
 
 --- Adds the bars of a series: those for which is_wanted(i) holds.
@@ -112,7 +112,10 @@ function marks.bar(chart, plot)
   local row = chart.highlight
   for k = 1, #chart.data.series do
     local pale = row and add_bars(objects, chart, plot, k, function(i) return i ~= row end)
-    if pale then objects[pale] = objects[pale]:fade(PALE) end
+    if pale then
+      local bars = objects[pale]
+      objects[pale] = celspan.union { bars:paint(chart.paper), bars:fade(PALE) }
+    end
     add_bars(objects, chart, plot, k, function(i) return not row or i == row end)
   end
   if chart.values then add_values(objects, chart, plot) end

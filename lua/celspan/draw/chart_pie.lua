@@ -40,7 +40,7 @@ local function slices_of(chart)
   for i, value in ipairs(values) do
     local share = sum > 0 and (value or 0) / sum or 0
     if share > LEAST then
-      slices[#slices + 1] = { name = chart.data.name(i), k = i, share = share,
+      slices[#slices + 1] = { name = chart.data.name(i), k = i, share = share, value = value,
                               from = 2 * pi * from, to = 2 * pi * (from + share) }
       from = from + share
     end
@@ -50,6 +50,7 @@ end
 
 --- What is written at a slice.
 local function text_of(chart, slice)
+  if chart.has_format then return slice.name .. "  " .. chart.written(slice.value) end
   return ("%s  %s%%"):format(slice.name, count.written(100 * slice.share,
     { language = chart.language }))
 end
@@ -128,21 +129,34 @@ local function largest(side, room)
   return list
 end
 
+--- A name in as many lines as the room needs.
+local function wrapped(pie, words, at, align)
+  return celspan.text { words, font = pie.style.font, size = pie.style.size, align = align, at = at,
+    texture = pie.style.texture, width = pie.room, valign = "middle" }
+end
+
 --- A name, and the line that leads to it from its slice.
 local function add_name(objects, chart, pie, slice, y, way)
   local size, texture = chart.style.size, chart.style.texture
+  local align = way > 0 and "left" or "right"
   local x0, y0 = point(pie, slice.middle, pie.radius * 1.03)
   local x1 = pie.x + way * (pie.radius + STEM * size)
   local x2 = x1 + way * ARM * size
   local shown = math.max(0, math.min(1, (pie.open - slice.from) / (slice.to - slice.from)))
   objects[#objects + 1] = celspan.stroke { points = { { x0, y0 }, { x1, y }, { x2, y } },
     width = LINE * size, texture = texture }:fade(0.5 * shown)
-  objects[#objects + 1] = labels.text(text_of(chart, slice), chart.style,
-    { x2 + way * 0.4 * size, y + chart.cap / 2 }, way > 0 and "left" or "right"):fade(shown)
+  local x, words = x2 + way * 0.4 * size, text_of(chart, slice)
+  local text = pie.room and wrapped(pie, words, { way > 0 and x or x - pie.room, y }, align)
+    or labels.text(words, pie.style, { x, y + pie.scale * chart.cap / 2 }, align)
+  objects[#objects + 1] = text:fade(shown)
 end
 
 local function add_names(objects, chart, pie, slices)
   local box, gap = chart.box, LEADING * chart.style.size
+  for _, slice in ipairs(pie.room and slices or {}) do
+    local height = wrapped(pie, text_of(chart, slice), { 0, 0 }):metrics().height
+    gap = math.max(gap, height + pie.style.size / 4)
+  end
   local low, high = box[2] + chart.style.size / 2, box[2] + box[4] - chart.style.size / 2
   for way = -1, 1, 2 do
     local side, wanted = largest(side_of(slices, way > 0), (high - low) // gap + 1), {}
@@ -156,20 +170,35 @@ local function add_names(objects, chart, pie, slices)
   end
 end
 
+local SMALLEST, LEAST_SIZE = 0.28, 0.7 -- of the box, what long names leave; of their size
+
+--- How names are written that would leave the pie less: smaller, or else also in several lines.
+local function fitted(chart, widest)
+  local box, style = chart.box, chart.style
+  local room = box[3] / 2 - (STEM + ARM + 0.4) * style.size - SMALLEST * math.min(box[3], box[4])
+  local scale = math.max(LEAST_SIZE, math.min(1, room / widest))
+  if scale == 1 or room <= 0 then return { style = style, scale = 1, width = widest } end
+  return { scale = scale, width = math.min(room, scale * widest),
+    room = scale * widest > room and room or nil,
+    style = { font = style.font, size = scale * style.size, texture = style.texture } }
+end
+
 --- The circle: as large as the names on both sides let it.
 local function place(chart, slices, has_names)
   local box, size, widest = chart.box, chart.style.size, 0
   for _, slice in ipairs(has_names and slices or {}) do
     widest = math.max(widest, labels.width(text_of(chart, slice), chart.style))
   end
-  local aside = has_names and widest + (STEM + ARM + 0.4) * size or 0
+  local pie = fitted(chart, widest)
+  local aside = has_names and pie.width + (STEM + ARM + 0.4) * size or 0
   local radius = math.min(box[4] / 2 - (has_names and size / 2 or 0), box[3] / 2 - aside)
   if radius <= 0 then
     refuse("a box of %.4g x %.4g has no room beside its names: make it larger, or field 'size' "
       .. "smaller", box[3], box[4])
   end
-  return { x = box[1] + box[3] / 2, y = box[2] + box[4] / 2, radius = radius, hole = chart.hole,
-           open = 2 * pi * open_ease(chart.progress) }
+  pie.x, pie.y, pie.radius, pie.hole = box[1] + box[3] / 2, box[2] + box[4] / 2, radius, chart.hole
+  pie.open = 2 * pi * open_ease(chart.progress)
+  return pie
 end
 
 ---@return celspan.object

@@ -48,7 +48,7 @@ local function values_axis(chart, height)
     while #list > 1 and list[#list] > last do list[#list] = nil end
   end
   local axis = { list = list, texts = {}, low = first, high = last, width = 0 }
-  for i, value in ipairs(chart.has_labels and list or {}) do
+  for i, value in ipairs(chart.has_numbers and list or {}) do
     axis.texts[i] = chart.written(value, decimals)
     axis.width = math.max(axis.width, labels.width(axis.texts[i], chart.style))
   end
@@ -205,7 +205,7 @@ end
 
 --- What is written below the plot: { { at = row | x = number, text =, width = }, ... }.
 local function rows_axis(chart, width)
-  if not chart.has_labels then return {} end
+  if not chart.has_names then return {} end
   local distance = least_distance(chart, width)
   local kept = thinned(chart, chart.kind == "bar" and names_fit(chart, distance) and math.huge
     or distance)
@@ -238,7 +238,7 @@ end
 
 --- How far the name of a row may stick out of the plot, at most.
 local function beyond(chart, i)
-  if not chart.has_labels then return 0 end
+  if not chart.has_names then return 0 end
   local slot = chart.kind == "bar" and chart.box[3] / chart.data.count or 0
   return math.max(0, labels.width(chart.data.name(i), chart.style) / 2 - slot / 4)
 end
@@ -249,7 +249,7 @@ local function sides_of(chart, axis, naming)
   for _, one in ipairs(naming == "ends" and chart.data.series or {}) do
     right = math.max(right, labels.width(one.name, chart.style) + size)
   end
-  return math.max(beyond(chart, 1), chart.has_labels and axis.width + 0.8 * size or 0), right
+  return math.max(beyond(chart, 1), axis.width > 0 and axis.width + 0.8 * size or 0), right
 end
 
 --- The plot in a box that labels make smaller. plot.below: the room for values of bars below 0.
@@ -257,15 +257,15 @@ local function place(chart, axis, naming, above)
   local size, box = chart.style.size, chart.box
   local left, right = sides_of(chart, axis, naming)
   local ways
-  if chart.kind == "bar" and chart.has_labels
+  if chart.kind == "bar" and chart.has_names
     and not names_fit(chart, (box[3] - left - right) / chart.data.count) then
-    local beside = axis.width + 0.8 * size
+    local beside = axis.width > 0 and axis.width + 0.8 * size or 0
     ways = names_of(chart, (box[3] - beside) / chart.data.count)
     if ways then left, right = beside, 0 end
   end
-  local top = above + (chart.values and 1.4 * size or chart.has_labels and size / 2 or 0)
+  local top = above + (chart.values and 1.4 * size or chart.has_numbers and size / 2 or 0)
   local below = chart.values and axis.low < 0 and 1.4 * size or 0
-  local bottom = below + (chart.has_labels and size + (ways and ways.height or size) or 0)
+  local bottom = below + (chart.has_names and size + (ways and ways.height or size) or 0)
   local plot = { ways = ways, x = box[1] + left, y = box[2] + top, w = box[3] - left - right,
                  h = box[4] - top - bottom, below = below }
   if plot.w <= 0 or plot.h <= 0 then
@@ -278,7 +278,7 @@ end
 
 local function add_axes(objects, chart, plot, axis)
   local size = chart.style.size
-  for i, value in ipairs(axis.list) do
+  for i, value in ipairs(chart.axes and axis.list or {}) do
     local y, thick = plot.up(value), HAIR * size
     objects[#objects + 1] = celspan.rect { plot.x, y - thick / 2, plot.w, thick,
       texture = chart.style.texture }:fade(value == 0 and FIRM or FAINT)
@@ -305,7 +305,7 @@ function plots.make(chart, draw)
   if naming == "row" then objects, above = name_row(chart) end
   local axis = values_axis(chart, chart.box[4] - above)
   local plot = place(chart, axis, naming, above)
-  if chart.axes then add_axes(objects, chart, plot, axis) end
+  add_axes(objects, chart, plot, axis)
   for _, object in ipairs(draw(chart, plot)) do objects[#objects + 1] = object end
   if naming == "ends" then
     for _, object in ipairs(name_ends(chart, plot)) do objects[#objects + 1] = object end
@@ -319,13 +319,14 @@ function plots.lying(chart, draw)
   local objects, above, size, box = {}, 0, chart.style.size, chart.box
   if naming_of(chart) then objects, above = name_row(chart) end
   local axis, widest, total = values_axis(chart, box[3]), 0, chart.data.count
-  for i = 1, chart.has_labels and total or 0 do
+  for i = 1, chart.has_names and total or 0 do
     widest = math.max(widest, labels.width(chart.data.name(i), chart.style))
   end
-  local slot = (box[4] - above - (chart.has_labels and 2 * size or 0)) / total
+  local slot = (box[4] - above - (chart.has_numbers and 2 * size or 0)) / total
   local scale = math.min(1, 0.4 * box[3] / math.max(widest, 1), slot / (1.1 * size))
-  local x = box[1] + (chart.has_labels and widest * scale + 0.8 * size or 0)
-  local right = math.max(chart.values and axis.width + size or 0, axis.width / 2)
+  local x = box[1] + (chart.has_names and widest * scale + 0.8 * size or 0)
+  local right = math.max(axis.width / 2, chart.values and size + math.max(axis.width,
+    labels.width(chart.written(axis.high, 0), chart.style)) or 0)
   local plot = { slot = slot, lies = true }
   function plot.at(i) return box[2] + above + slot * (i - 0.5) end
   function plot.up(value)
@@ -339,7 +340,7 @@ function plots.lying(chart, draw)
     objects[#objects + 1] = axis.texts[i] and labels.text(axis.texts[i], chart.style,
       { plot.up(value), bottom + 0.9 * size + chart.cap }, "centre")
   end
-  for i = 1, chart.has_labels and total or 0 do
+  for i = 1, chart.has_names and total or 0 do
     objects[#objects + 1] = labels.text(chart.data.name(i), style,
       { x - 0.8 * size, plot.at(i) + scale * chart.cap / 2 }, "right")
   end

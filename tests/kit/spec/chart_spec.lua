@@ -170,6 +170,27 @@ describe("a chart", function()
     assert.equal("3 t", tostring(bars[2][1]))
   end)
 
+  with_art("of a pie are written as its format does, and wrapped where they are long", function()
+    local function pie(name)
+      local drawn, found = chart { kind = "pie", data = { { n = name, v = 3 }, { n = "b", v = 5 } },
+        x = "n", y = "v", box = { 0, 0, 300, 100 }, font = FONT, size = 10,
+        format = function(value) return value .. " kg" end }, {}
+      for i = 1, #drawn do found[#found + 1] = tostring(drawn[i][1]) end
+      return table.concat(found, "\n"), { drawn:bounds() }, { drawn[1]:bounds() }
+    end
+    assert.matches("b  5 kg", (pie "a"), 1, true)
+    local _, whole, circle = pie(("long "):rep(20))
+    assert.is_true(whole[1] >= 0 and whole[1] + whole[3] <= 300 and circle[3] >= 55)
+  end)
+
+  with_art("of bars stay without axes, if the rows have names", function()
+    local function count(x)
+      return #chart { kind = "bar", data = { { n = "a", v = 3 }, { n = "b", v = 5 } }, x = x,
+        y = "v", box = { 0, 0, 300, 100 }, font = FONT, axes = false }
+    end
+    assert.are.same({ 3, 1 }, { count "n", count() })
+  end)
+
   it("shows one row, equal values and long tables", function()
     for _, kind in ipairs { "bar", "line", "area", "pie" } do
       assert.is_truthy(plain(kind, { 7 }):bounds() or kind == "area", kind)
@@ -295,12 +316,14 @@ describe("the names of bars", function()
       local _, drawn = written(600, changes)
       local found = {}
       for k = 1, #drawn do
-        if tostring(drawn[k]):find "^path" then found[#found + 1] = drawn[k] end
+        local is_bar = tostring(drawn[k]):find "^path" or #drawn[k] == 2 -- pale, on white
+        if is_bar and drawn[k]:bounds() then found[#found + 1] = drawn[k] end
       end
       return found[i]
     end
     local pale, strong = colour({ highlight = "max" }, 1), colour({ highlight = "max" }, 2)
     assert.is_true(select(3, pale:bounds()) > 3 * select(3, strong:bounds()))
+    assert.is_nil(colour({ highlight = false }, 2))
     raised.each {
       ["field 'highlight' must be \"max\" or a name, got 'Fryday'; did you mean 'Friday'?"] =
         function() written(600, { highlight = "Fryday" }) end,
