@@ -216,18 +216,21 @@ local function ride(group, curve, start, left)
   return true
 end
 
+--- Where a text begins on an open path, ends there, or has its middle, by its alignment.
+local starts = { centre = 0.5, center = 0.5, right = 1 }
+
 local function as_it_is(letter) return letter.object end
 
 --- A text whose letters, words or lines a function changes: it returns an object, or nil for
 --- nothing. With `along`, path data or a path, the text runs along it; a letter then has `degrees`.
 ---@param text celspan.text.fields
 ---@param change? fun(letter: celspan.letter, i: integer, n: integer): celspan.object?
----@param options? { by?: "letter"|"word"|"line", along?: string|celspan.contour[]|celspan.shape, start?: number }
+---@param options? { by?: "letter"|"word"|"line", along?: string|celspan.contour[]|celspan.shape, start?: number } start: a share of the path; of an open one 0.5 by default for align = "centre", and 1 for "right"
 ---@return celspan.object
 function layout.letters(text, change, options)
   options = options or {}
   fields.check("letters", options, { by = "string", along = "any", start = "number" })
-  local by, start = options.by or "letter", options.start or 0
+  local by = options.by or "letter"
   if by ~= "letter" and by ~= "word" and by ~= "line" then
     refuse("letters: field 'by' must be \"letter\", \"word\" or \"line\", got %q", by)
   end
@@ -235,6 +238,7 @@ function layout.letters(text, change, options)
     "letters: the second argument must be a function")
   local groups, shown, objects = groups_of(celspan.glyphs(text), by), {}, {}
   local curve = options.along and curves.read("letters", options.along)
+  local start = options.start or curve and not curve.is_closed and starts[text.align] or 0
   for _, group in ipairs(groups) do
     if not group.text:find(BLANK) then
       group.object = #group.objects == 1 and group.objects[1] or celspan.union(group.objects)

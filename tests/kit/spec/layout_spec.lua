@@ -162,6 +162,9 @@ describe("letters", function()
     local text = { "HH", font = FONT, size = 100, at = { 40, 7 } }
     local glyphs = celspan.glyphs(text)
     local straight = places(text, { along = "M10 20 H1010", start = 0.5 })
+    local words = { "AB", font = FONT, size = 20, align = "center" }
+    assert.are.same(places(words, { along = "M10 20 H1010", start = 0.5 }),
+      places(words, { along = "M10 20 H1010" }))
     for i, glyph in ipairs(glyphs) do
       local middle = glyph.x - 40 + glyph.advance / 2
       assert.near(510 + middle, straight[i][1], 1e-9)
