@@ -149,6 +149,11 @@ function fields.reads(noun, methods, optional)
     local own = found == nil and type(name) == "string" and native.synonym(name, true)
     if own and (methods[own] or rawget(value, own)) then return methods[own] or value[own] end
     if found ~= nil or type(name) ~= "string" or optional and optional[name] then return found end
+    local object = rawget(value, "object")
+    if fields.is_object(object) and pcall(function() return object[name] end) then
+      native.refuse(("%s has no '%s', but its object has: write .object:%s(...)"):format(noun, name,
+        name))
+    end
     local names = {}
     for _, list in ipairs { methods, value, optional or {} } do
       for known in pairs(list) do

@@ -195,9 +195,23 @@ end
 ---@class celspan.ease
 ---@field names string[]
 ---@overload fun(curve: string|fun(u: number): number): fun(u: number): number
-return fields.publish("ease", setmetatable({
+local ease = fields.publish("ease", setmetatable({
   --- Every name in its plain form: "inquad", "quadin", ...
   names = names,
 }, {
   __call = native.entry(find),
 }))
+
+local metatable = getmetatable(ease)
+local otherwise = metatable.__index
+
+--- `ease.outBounce` is no field: a curve is asked for by name.
+function metatable.__index(_, name)
+  if type(name) ~= "string" or native.nearest(name, { "names" }) then
+    return otherwise(ease, name)
+  end
+  find(nil, name) -- refuses what is no curve
+  native.refuse(("celspan.ease has no '%s': write ease %q"):format(name, name))
+end
+
+return ease

@@ -140,6 +140,8 @@ local function problem_of(key)
   if not kind_of(key[2]) then
     return "must have a finite number, an array of numbers or points, a pose, a paint, a string "
       .. "or a boolean as value, got " .. fields.shown(key[2])
+      .. (fields.kind(key[2]):find "^a " and ": make it in the frame, of colours or numbers that "
+        .. "have keys" or "")
   end
   for name in next, key do
     if name ~= 1 and name ~= 2 and name ~= 3 then

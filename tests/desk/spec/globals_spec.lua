@@ -124,6 +124,10 @@ print(circle and seen)]])
       .. "'circle'?", refused "circl { 1, 2, 3 }", 1, true)
     assert.matches("attempt to index a nil value (global 'motoin'); did you mean 'motion'?",
       refused "return motoin.along()", 1, true)
+    assert.matches("arithmetic on a nil value (global 'circl'); did you mean 'circle'?",
+      refused "return 2 * circl", 1, true)
+    assert.matches("(global 'f'); a frame function gets f: write frame = function(f) ...",
+      refused "return f.time", 1, true)
     assert.matches("(global 'track'); it is a module: require \"celspan.track\"",
       refused "track.follow()", 1, true)
     assert.matches("film.lua:3: attempt to call a nil value (global 'my_dots'); did you mean "

@@ -152,6 +152,12 @@ describe("the rows of a table", function()
     code, _, err = bench:celspan_inside "check film.lua --table rows.csv"
     assert.equal(2, code, err)
     assert.truthy(err:find("2 without a fault, 1 failed: line 3\n", 1, true), err)
+    assert.falsy(err:find("warning: --table", 1, true), err)
+    bench:write("rows.csv", "other\n1\n")
+    code, _, err = bench:celspan_inside "check film.lua --table rows.csv"
+    assert.equal(0, code, err)
+    assert.truthy(err:find("rows.csv: no column is a parameter of the script; there are id, n", 1,
+      true), err)
   end)
 
   it("come from standard input, and are not JSON", function()

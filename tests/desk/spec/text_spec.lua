@@ -331,6 +331,8 @@ describe("fonts", function()
     local near = message_of { "A", font = FONT:gsub("block%.ttf$", "blok.ttf") }
     assert.is_truthy(near:find('blok.ttf: No such file or directory; did you mean "block.ttf"? '
       .. "'celspan fonts' lists the fonts there are", 1, true), near)
+    near = message_of { "A", font = FONT:gsub("type/block", "block") }
+    assert.is_truthy(near:find('did you mean "type/block.ttf"?', 1, true), near)
   end)
 
   it("have letters whose methods are those of their objects", function()

@@ -351,6 +351,18 @@ describe("reading an unknown field", function()
       function() return require "celspan.ease".name end },
     { "celspan.lips has no 'raed'; did you mean 'read'?",
       function() return require "celspan.lips".raed end },
+    { "celspan.ease has no 'outBounce': write ease \"outBounce\"",
+      function() return require "celspan.ease".outBounce end },
+    { "ease: there is no curve \"outBounse\"; did you mean \"outbounce\"?",
+      function() return require "celspan.ease".outBounse end },
+    { "keys: key 1 must have a finite number, an array of numbers or points, a pose, a paint, a "
+      .. "string or a boolean as value, got a linear: make it in the frame, of colours or numbers "
+      .. "that have keys",
+      function() keys { { 0, celspan.linear { "#f00", "#00f" } } } end },
+    { "mix: argument 2 must be a paint or a colour like \"#rrggbb\", got a linear: mix the colours "
+      .. "that it is made of", function()
+        celspan.mix("#f00", celspan.linear { "#f00", "#00f" }, 0.5)
+      end },
     { "celspan.keys has no 'foo'", function() return require "celspan.keys".foo end },
     { "a track of keys has no 'att'; did you mean 'at'?",
       function() return keys { { 0, 1 } }:att(0) end },

@@ -1055,6 +1055,8 @@ describe("parts", function()
     assert.is_truthy(raised.message(function() art:with { hnad = function() end } end)
       :find("the drawing has no part 'hnad'; did you mean 'hand'?", 1, true))
     assert.is_truthy(raised.message(function() return art.parts.hnad end):find("'hand'", 1, true))
+    assert.equal("a drawing has no 'rotate', but its object has: write .object:rotate(...)",
+      raised.message(function() art:rotate(9) end):match "a drawing.*")
     local message = raised.message(function() art:with { hand = 3 } end)
     assert.is_truthy(message:find("must have a function", 1, true))
     assert.is_truthy(raised.message(function() art:with { hand = function() return 3 end } end)

@@ -17,7 +17,8 @@ static const cs_option *find(const cs_verb *verb, const char *name) {
   return NULL;
 }
 
-static cs_exit refuse_unknown(const cs_verb *verb, const char *name) {
+/* value: after "=", or NULL. */
+static cs_exit refuse_unknown(const cs_verb *verb, const char *name, const char *value) {
   const char *names[NAMES_MOST];
   size_t count = 0;
   for (const cs_option *option = verb->options; option->name && count < NAMES_MOST; option++)
@@ -25,6 +26,9 @@ static cs_exit refuse_unknown(const cs_verb *verb, const char *name) {
   const char *nearest = cs_suggest_name(name, names, count);
   if (nearest)
     return cs_report_usage("unknown option '%s': did you mean '%s'?", name, nearest);
+  if (value && find(verb, "--set"))
+    return cs_report_usage("unknown option '%s': a parameter of the script is given by --set %s=%s",
+                           name, name + 2, value);
   return cs_report_usage("unknown option '%s' ('celspan help %s' lists the options)", name,
                          verb->name);
 }
@@ -51,13 +55,13 @@ static cs_exit read_option(reading *r) {
   char name[NAME_SIZE];
   size_t length = word[1] == '-' ? strcspn(word, "=") : strlen(word);
   if (length >= sizeof name)
-    return refuse_unknown(request->verb, word);
+    return refuse_unknown(request->verb, word, NULL);
   memcpy(name, word, length);
   name[length] = '\0';
   r->option = find(request->verb, name);
-  if (!r->option)
-    return refuse_unknown(request->verb, name);
   r->text = word[length] ? word + length + 1 : NULL;
+  if (!r->option)
+    return refuse_unknown(request->verb, name, r->text);
   if (!r->option->kind)
     return r->text ? cs_report_usage("%s takes no value", name) : CS_EXIT_OK;
   if (!r->text && r->next == request->word_count)

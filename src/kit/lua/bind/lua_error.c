@@ -34,9 +34,7 @@ static void push_chain(lua_State *L, const char *message, const char *position) 
 static const char *push_hint(lua_State *L, const char *message) {
   static const char before[] = "a nil value (global '";
   const char *attempt = strstr(message, "attempt to "), *name = strstr(message, before);
-  bool is_use =
-      attempt && (strncmp(attempt + 11, "call", 4) == 0 || strncmp(attempt + 11, "index", 5) == 0);
-  if (name && is_use) {
+  if (name && attempt) {
     name += sizeof before - 1;
     lua_pushlstring(L, name, strcspn(name, "'"));
     return cs_names_push_hint(L, lua_tostring(L, -1));

@@ -177,10 +177,23 @@ static const char *push_own_hint(lua_State *L, const char *name) {
   return own ? strchr(own, ';') : NULL;
 }
 
+/* What a frame function has, by the names under which it is looked for as a global. */
+static const char *find_in_frame(const char *name) {
+  static const char *const names[][2] = {
+      {"f", "f"}, {"frame", "f"}, {"t", "f.time"}, {"time", "f.time"}, {"progress", "f.progress"}};
+  for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+    if (strcmp(names[i][0], name) == 0)
+      return names[i][1];
+  return NULL;
+}
+
 const char *cs_names_push_hint(lua_State *L, const char *name) {
-  const char *names[CS_NAMES_MOST];
+  const char *names[CS_NAMES_MOST], *in_frame = find_in_frame(name);
   if (lua_getfield(L, LUA_REGISTRYINDEX, CS_NAMES_FOUND) == LUA_TNIL)
     return "";
+  if (in_frame)
+    return lua_pushfstring(L, "; a frame function gets %s: write frame = function(f) ...",
+                           in_frame);
   const char *hint = push_own_hint(L, name);
   if (hint)
     return hint;

@@ -173,8 +173,9 @@ static celspan_paint mix_argument(lua_State *L, int index) {
     return paint;
   const cs_userdata *value = cs_userdata_test(L, index, &cs_kind_paint);
   if (!value)
-    cs_caller_error(L, "mix: argument %d must be a paint or a colour like \"#rrggbb\", got %s",
-                    index, cs_form_shown_colour(L, index));
+    cs_caller_error(L, "mix: argument %d must be a paint or a colour like \"#rrggbb\", got %s%s",
+                    index, cs_form_shown_colour(L, index),
+                    lua_isuserdata(L, index) ? ": mix the colours that it is made of" : "");
   return *(const celspan_paint *)cs_userdata_own(value);
 }
 

@@ -42,30 +42,47 @@ static void read_string(const cs_form *form, celspan_text_desc *desc) {
   desc->text = lua_tolstring(L, -1, &desc->text_size); /* for a number, this makes a new string */
 }
 
-/* Raises the error that a font is missing, if a font with a similar name lies in the folder where
- * it was looked for. */
-static void refuse_missing(const cs_form *form, const char *path) {
-  const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
-  char nearest[NAME_MAX + 1] = "";
-  int least = (int)strlen(name) / 3 + 1;
-  lua_pushlstring(form->L, path, (size_t)(name - path));
-  DIR *folder = opendir(slash ? lua_tostring(form->L, -1) : ".");
-  for (const struct dirent *entry; folder && (entry = cs_open_entry(folder));) {
-    const int distance = cs_suggest_distance(name, entry->d_name);
-    if (distance < least && cs_files_is_font(entry->d_name)) {
-      least = distance;
-      snprintf(nearest, sizeof nearest, "%s", entry->d_name);
+/* The font whose name is nearest to a wanted one. */
+typedef struct near_font {
+  const char *name;
+  int least; /* distance */
+  char path[3 * (NAME_MAX + 1)];
+} near_font;
+
+/* Searches a folder, and `depth` levels of folders in it. before: their names, each with "/". */
+static void search(near_font *near, const char *folder, const char *before, int depth) {
+  char inner[PATH_MAX], names[2 * (NAME_MAX + 1)];
+  DIR *open = opendir(folder);
+  for (const struct dirent *entry; open && (entry = cs_open_entry(open));) {
+    const char *name = entry->d_name;
+    const int distance = cs_suggest_distance(near->name, name);
+    if (distance < near->least && cs_files_is_font(name)) {
+      near->least = distance;
+      snprintf(near->path, sizeof near->path, "%s%s", before, name);
+    } else if (depth > 0 && entry->d_type == DT_DIR && name[0] != '.') {
+      snprintf(inner, sizeof inner, "%s/%s", folder, name);
+      snprintf(names, sizeof names, "%s%s/", before, name);
+      search(near, inner, names, depth - 1);
     }
   }
-  if (folder)
-    closedir(folder);
+  if (open)
+    closedir(open);
+}
+
+/* Raises the error that a font is missing, if a font with a similar name lies in the folder where
+ * it was looked for, or in folders there. */
+static void refuse_missing(const cs_form *form, const char *path) {
+  const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
+  near_font near = {.name = name, .least = (int)strlen(name) / 3 + 1};
+  lua_pushlstring(form->L, path, (size_t)(name - path));
+  search(&near, slash ? lua_tostring(form->L, -1) : ".", "", 2);
   lua_pop(form->L, 1);
-  if (nearest[0])
+  if (near.path[0])
     cs_form_try(form, celspan_context_fail(
                           cs_host_context(form->L), CELSPAN_INPUT,
                           "%.500s: No such file or directory; did you mean \"%s\"? 'celspan fonts' "
                           "lists the fonts there are",
-                          path, nearest));
+                          path, near.path));
 }
 
 /* The font on top of the stack; values pushed by the search are left above it. */

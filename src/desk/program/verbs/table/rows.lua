@@ -13,6 +13,7 @@ local program, request, script = ...
 local csv = require "celspan.csv"
 local fields = require "celspan.fields"
 local json = require "celspan.json"
+local ordered = require "celspan.ordered"
 
 local is_check = request.verb == "check" -- no files are written
 local is_lenient = is_check or request.keep_going -- a row that is wrong fails alone
@@ -108,10 +109,28 @@ end
 
 --- The end of a message about a column that nothing uses: what was probably meant.
 local function meant_by(name, is_parameter)
-  local names = {}
-  for known in pairs(is_parameter) do names[#names + 1] = known end
-  for known in request.output:gmatch "{([%w_]+)}" do names[#names + 1] = known end
+  local names = ordered.names(is_parameter)
+  for known in (request.output or ""):gmatch "{([%w_]+)}" do names[#names + 1] = known end
   return fields.hint(name, names) or ""
+end
+
+--- Warns of columns that are probably meant as parameters: of misspelled ones, and of all, if none
+--- is one. The others may be for names of files.
+local function warn_of(header, is_parameter)
+  local is_any = false
+  for _, name in ipairs(header) do
+    local hint = is_parameter[name] and "" or meant_by(name, is_parameter)
+    is_any = is_any or is_parameter[name] or hint ~= ""
+    if hint ~= "" then
+      program.note("warning: --table %s: column '%s' is no parameter of the script%s",
+        request.table, name, hint)
+    end
+  end
+  if not is_any then
+    local names = table.concat(ordered.names(is_parameter), ", ")
+    program.note("warning: --table %s: no column is a parameter of the script; %s", request.table,
+      names == "" and "it declares none" or "there are " .. names)
+  end
 end
 
 --- The places of the columns by their names.
@@ -120,7 +139,10 @@ local function check_header(header, is_parameter)
     program.usage("--table %s: it is empty: its first line names the columns", request.table)
   end
   local columns = try(csv.columns, header)
-  if is_check then return columns end
+  if is_check then
+    warn_of(header, is_parameter)
+    return columns
+  end
   local places = request.output .. (request.log or "")
   for _, name in ipairs(header) do
     local has_place = places:find("{" .. name .. "}", 1, true) and not is_for_stems(name)
