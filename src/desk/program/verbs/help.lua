@@ -189,9 +189,13 @@ end
 --- Words in the form for comparisons: paper_cutout, Cross-hatching.
 local function alike(words) return (words:lower():gsub("[-_]", " ")) end
 
---- The recipe with this title or keyword, if there is exactly one.
+--- The recipe with this title or keyword, if there is exactly one, and the words do not first mean
+--- something else.
 local function exact_recipe(recipes, words)
   local found, wanted = {}, alike(words)
+  for _, row in ipairs(program.part "synonyms.lua") do
+    if row.is_first and row[1] == wanted then return nil end
+  end
   for _, recipe in ipairs(recipes) do
     local is_it = alike(recipe.title) == wanted
     for _, keyword in ipairs(recipe.keywords) do is_it = is_it or alike(keyword) == wanted end
