@@ -2,22 +2,27 @@
 --   script   a script of the tree
 --   page     a page with an example of the same name
 --   onion    the number of frames before and after it that are shown behind it
+--   loop     "all", or the frames, of NAME.webp: a picture that moves, instead of NAME.png
 --   strip    the numbers of frames that are shown side by side, instead of one frame
 --   grid     a contact sheet with this number of columns and rows, instead of a frame
 --   background   a colour behind a frame that is transparent
 --   size     in pixels; of a frame, or what the contact sheet is made smaller to
 --   allow    a folder that the script may read, in addition to its own
---   before   an example of the page that is run first, a program in plain Lua
+--   before   the page and name of an example that is run first, a program in plain Lua
 --   parts    frames that are rendered first, to a folder that the script gets as its argument
+local SOUNDS, PLATES = { "docs/guide-film.md", "sounds" }, { "docs/cookbook.md", "plates" }
+
 local list = {
   { name = "demo", script = "scripts/demo.lua", frame = 193, size = "800x450" },
   { name = "little-one", script = "scripts/film.lua", frame = 463, size = "400x225" },
   { name = "moon", page = "README.md", frame = 40 },
-  { name = "dot", page = "docs/first-hour.md", strip = "1,13,25,37" },
-  { name = "hop", page = "docs/first-hour.md", strip = "1,13,25,33" },
-  { name = "hello", page = "docs/first-hour.md", strip = "7,13,21,37" },
-  { name = "gull", page = "docs/first-hour.md", strip = "11,19,29,39" },
-  { name = "coast", page = "docs/first-hour.md", strip = "17,37,65,85" },
+  { name = "dot", page = "docs/first-hour.md", loop = "all", size = "480x270" },
+  { name = "hop", page = "docs/first-hour.md", loop = "all", size = "480x270" },
+  { name = "hello", page = "docs/first-hour.md", loop = "all", size = "480x270" },
+  { name = "gull", page = "docs/first-hour.md", loop = "all", size = "480x270" },
+  { name = "coast", page = "docs/first-hour.md", loop = "all", size = "480x270" },
+  { name = "premiere", page = "docs/first-hour.md", loop = "all", size = "480x270",
+    before = SOUNDS },
   { name = "beta", page = "docs/guide-picture.md" },
   { name = "blending", page = "docs/guide.md" },
   { name = "walking", script = "scripts/walking.lua", frame = 10, size = "640x396" },
@@ -60,13 +65,13 @@ local list = {
   { name = "valley", page = "docs/guide.md", frame = 32, size = "480x216" },
   { name = "exposure_sheet", script = "scripts/exposure_sheet.lua", frame = 8, size = "640x360" },
   { name = "night", page = "docs/guide-shot.md", frame = 40, size = "480x270" },
-  { name = "badges", page = "docs/cookbook.md", frame = 20 },
+  { name = "badges", page = "docs/cookbook.md", loop = "all" },
   { name = "brush_lines", page = "docs/lua-shapes.md", frame = 40 },
   { name = "operators", page = "docs/lua-objects.md" },
   { name = "loader", page = "docs/lua-drawings.md", grid = "4x1", size = "670x108" },
   { name = "day", page = "docs/guide-film.md", grid = "4x3", size = "1188x536" },
   { name = "page", page = "docs/guide-film.md", frame = 24, size = "480x270" },
-  { name = "listener", page = "docs/guide-film.md", frame = 30, before = "sounds" },
+  { name = "listener", page = "docs/guide-film.md", frame = 30, before = SOUNDS },
   { name = "hat", script = "scripts/hat.lua", frame = 40, size = "480x270" },
   { name = "evening", script = "scripts/relight.lua", frame = 80, size = "480x270" },
   { name = "perspective", script = "scripts/perspective.lua", frame = 24, size = "640x360" },
@@ -93,40 +98,37 @@ local list = {
     { script = "scripts/kernels.lua", frame = "all", file = "kernels.#.png" } } },
 }
 
--- The recipes of the cookbook, each with the frame that is shown, and its size if it has many
--- shades; or, if what matters is the movement, with the frames of a strip.
+-- The recipes of the cookbook, each with the frames that are shown: of a loop, or the only one.
 for _, recipe in ipairs {
-  { "cast_shadow", 12 }, { "drop_shadow", 10, "360x202" }, { "neon_glow", 24, "360x202" },
-  { "bloom", 10, "240x135" }, { "light_wrap", 10, "240x135" },
-  { "soft_vignette", 1, "360x202" },
-  { "time_lapse", strip = "28,52,82" }, { "clock_wipe", strip = "8,20,32" },
-  { "iris_out", strip = "10,22,31" }, { "endless_zoom", strip = "1,17,33" }, { "split_screen", 8 },
-  { "green_screen", 20 }, { "picture_in_picture", 60 }, { "kaleidoscope", 1, "360x202" },
-  { "lower_third", 30 }, { "karaoke_line", 27 },
-  { "three_languages", 12 }, { "text_on_path", 40 }, { "speech_bubble", 20 },
-  { "falling_letters", 24 }, { "typewriter", 72 }, { "srt_subtitles", 96 }, { "handwriting", 52 },
-  { "bar_race", 57 }, { "line_chart", 50 },
-  { "rolling_counter", 30, "360x202" },
-  { "island_map", 40 }, { "value_map", 60 }, { "many_scripts", 60 },
-  { "paper_texture", 1, "320x180" },
-  { "hatching", 1, "360x202" }, { "halftone_dots", 1, "360x202" }, { "snowfall", 30, "360x202" },
-  { "clouds", 30, "320x180" }, { "water_reflection", 10 }, { "heat_haze", 40, "320x180" },
-  { "squash_stretch", strip = "16,20,25" }, { "magnifying_lens", 40, "360x202" },
-  { "colour_fringes", 1, "320x180" },
-  { "old_film", 12, "360x202" }, { "morph_shapes", strip = "8,14,20" },
-  { "confetti_burst", strip = "6,34" }, { "camera_shake", strip = "30,37,41" },
-  { "race_car", 20, "320x180" },
-  { "sprite_sheet", 1, "360x202" }, { "transparent_video", 30, background = "#21465a" },
-  { "crossfade", strip = "24,31,37" }, { "rotoscope", strip = "1,3,7" },
-  { "speed_ramp", strip = "9,30,62" }, { "mixed_sound", 66 },
-  { "dancing_city", 112, before = "sounds" },
-  { "over_footage", 30, "360x202", before = "plates" },
-  { "light_rays", 30, "320x180" }, { "glitch_title", strip = "9,30" }, { "logo_reveal", 84 },
-  { "film_leader", 32, "360x202" }, { "every_shape", 20 }, { "scarf_walk", 40 },
-  { "harvest_charts", 72 }, { "deep_title", 20, "360x202" }, { "cel_shading", 18 },
+  { "cast_shadow", "all" }, { "drop_shadow", "all" }, { "neon_glow", "all" }, { "bloom", "all" },
+  { "light_wrap", "all" }, { "soft_vignette", 1, "360x202" }, { "time_lapse", "all", "320x180" },
+  { "clock_wipe", "all" }, { "iris_out", "all" }, { "endless_zoom", "all" },
+  { "split_screen", "all" }, { "green_screen", "all" }, { "picture_in_picture", "1-48" },
+  { "kaleidoscope", 1, "360x202" }, { "lower_third", "all" }, { "karaoke_line", "all" },
+  { "three_languages", "all" }, { "text_on_path", "all" }, { "speech_bubble", "all" },
+  { "falling_letters", "all" }, { "typewriter", "all" }, { "srt_subtitles", "73-144" },
+  { "handwriting", "all" }, { "bar_race", "all" }, { "line_chart", "all" },
+  { "rolling_counter", "1-48" }, { "island_map", "all" }, { "value_map", "1-72" },
+  { "many_scripts", "all" }, { "paper_texture", 1, "320x180" }, { "hatching", 1, "360x202" },
+  { "halftone_dots", 1, "360x202" }, { "three_depths", "all" },
+  { "snowfall", "all" }, { "clouds", 30, "320x180" },
+  { "water_reflection", "all" }, { "heat_haze", "1-48" }, { "squash_stretch", "all" },
+  { "magnifying_lens", "all" }, { "colour_fringes", 1, "320x180" }, { "old_film", "1-36" },
+  { "morph_shapes", "all" }, { "confetti_burst", "1-42", "320x180" },
+  { "camera_shake", "24-60", "320x180" }, { "race_car", "1-48" },
+  { "sprite_sheet", 1, "360x202" }, { "transparent_video", "1-48", background = "#21465a" },
+  { "crossfade", "12-48" }, { "rotoscope", "all" }, { "speed_ramp", "all" },
+  { "mixed_sound", "49-96" }, { "dancing_city", "97-144", before = SOUNDS },
+  { "over_footage", "all", before = PLATES }, { "light_rays", "1-48" },
+  { "glitch_title", "1-48" }, { "logo_reveal", "all" }, { "film_leader", "1-48", "320x180" },
+  { "every_shape", "all" }, { "scarf_walk", "all" }, { "harvest_charts", "all" },
+  { "deep_title", "1-60" }, { "cel_shading", "1-48" },
 } do
-  list[#list + 1] = { name = recipe[1], page = "docs/cookbook.md", frame = recipe[2],
-    size = recipe[3], strip = recipe.strip, background = recipe.background, before = recipe.before }
+  local frames, size = recipe[2], recipe[3]
+  local loop = type(frames) == "string" and frames or nil
+  list[#list + 1] = { name = recipe[1], page = "docs/cookbook.md", frame = not loop and frames,
+    loop = loop, size = size or loop and "360x202", background = recipe.background,
+    before = recipe.before }
 end
 
 return list

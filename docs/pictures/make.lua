@@ -1,12 +1,15 @@
--- Makes the pictures of the documentation: lua5.4 docs/pictures/make.lua BINARY FOLDER, from the
--- top of the tree. Examples in pages are saved in FOLDER/examples/, and the frames from which
--- pictures are composed in FOLDER/parts/.
+-- Makes the pictures of the documentation, or those with the names: lua5.4 docs/pictures/make.lua
+-- BINARY FOLDER [NAME...], from the top of the tree. Examples in pages are saved in
+-- FOLDER/examples/, and the frames from which pictures are composed in FOLDER/parts/.
 package.path = "./?.lua;" .. package.path
 local markdown = require "tests.support.markdown"
 local list = require "docs.pictures.list"
 
 local binary, folder = ...
-assert(binary and folder, "usage: lua5.4 docs/pictures/make.lua BINARY FOLDER")
+assert(binary and folder, "usage: lua5.4 docs/pictures/make.lua BINARY FOLDER [NAME...]")
+local names = { select(3, ...) }
+local is_wanted = {}
+for _, name in ipairs(names) do is_wanted[name] = true end
 local program = ("'%s'"):format(binary)
 
 local function run(command, ...)
@@ -33,7 +36,9 @@ end
 local function render(script, picture, output, argument, options)
   local arguments = { script, "--progress", "none", "-o", output }
   local function add(...) table.move({ ... }, 1, select("#", ...), #arguments + 1, arguments) end
-  if picture.frame ~= "all" then add("--frames", tostring(picture.frame or 1)) end
+  if picture.loop then add("--fps", "12", "--quality", "50", "--no-dither") end
+  local frames = picture.loop or picture.frame or 1
+  if frames ~= "all" then add("--frames", tostring(frames)) end
   if picture.size then add("--size", picture.size) end
   if picture.onion then add("--onion", picture.onion) end
   if picture.background then add("--background", picture.background) end
@@ -50,17 +55,18 @@ run("cp -r scripts/type scripts/paintings scripts/pictures scripts/drawings scri
 -- A script gets an absolute path, because it looks for files beside itself, and may read there.
 local pwd = assert(io.popen "pwd"):read "l"
 local absolute = parts:find "^/" and parts or pwd .. "/" .. parts
-for _, picture in ipairs(list) do
+local function make(picture)
   for _, part in ipairs(picture.parts or {}) do
     render(part.script, part, parts .. "/" .. part.file)
   end
   local script, options = picture.script, nil
   if not script then script, options = extract(picture.page, picture.name) end
   if picture.before then
+    local before = extract(table.unpack(picture.before))
     run(("modules=$(realpath \"$(dirname '%s')\") && cd %s/examples && "
-      .. "LUA_CPATH=\"$modules/?.so\" lua5.4"):format(binary, folder), picture.before .. ".lua")
+      .. "LUA_CPATH=\"$modules/?.so\" lua5.4"):format(binary, folder), before:match "[^/]+$")
   end
-  local output = folder .. "/" .. picture.name .. ".png"
+  local output = ("%s/%s.%s"):format(folder, picture.name, picture.loop and "webp" or "png")
   if picture.strip then
     local _, commas = picture.strip:gsub(",", "")
     run(program .. " contact", script, "--grid", commas + 1 .. "x1", "--frames", picture.strip,
@@ -72,4 +78,7 @@ for _, picture in ipairs(list) do
   else
     render(script, picture, output, picture.parts and absolute, options)
   end
+end
+for _, picture in ipairs(list) do
+  if #names == 0 or is_wanted[picture.name] then make(picture) end
 end
