@@ -77,6 +77,24 @@ static void check_lengths(cs_isa isa) {
   CHECK(wrong == 0);
 }
 
+/* Runs of one colour, of any length and at any place, which differ in one channel or in a bit. */
+static void check_flat(cs_isa isa) {
+  int wrong = 0;
+  for (int i = 0; i < PIXELS; i++) {
+    const bool is_new = i == 0 || random_below(&numbers, i < PIXELS / 2 ? 40 : 7) == 0;
+    memcpy(colours[i], i > 0 ? colours[i - 1] : (float[4]){0}, sizeof colours[i]);
+    if (is_new)
+      colours[i][random_below(&numbers, 4)] = i % 3 ? random_unit(&numbers) : strange();
+  }
+  cs_srgb8_choose(isa)(colours[0], PIXELS, codes);
+  for (int i = 0; i < PIXELS; i++) {
+    uint32_t code;
+    memcpy(&code, codes + 4 * i, sizeof code);
+    wrong += code != cs_srgb8_pixel(colours[i]);
+  }
+  CHECK(wrong == 0);
+}
+
 /* A code that is decoded and premultiplied is restored, so pictures may be copied as codes. */
 static void check_round_trip(void) {
   int wrong = 0;
@@ -97,6 +115,7 @@ int main(void) {
     check_translucent(isa, 0);
     check_translucent(isa, 3);
     check_lengths(isa);
+    check_flat(isa);
   }
   check_round_trip();
   return check_done();
