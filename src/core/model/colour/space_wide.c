@@ -10,9 +10,9 @@
 #include "model/colour/power.h"
 #include "model/colour/space.h"
 
-#define TOGETHER 64 /* channels: all loops have this length, so that there is no remainder */
-#define PIXELS 64   /* side by side: no channels are left over where none is clear */
-#define ALONE 8     /* channels at most: they are converted in less time one by one */
+#define TOGETHER 32
+#define PIXELS 64 /* side by side: no channels are left over where none is clear */
+#define ALONE 8   /* channels at most: they are converted in less time one by one */
 
 typedef struct channels {
   float s[TOGETHER], there[TOGETHER], colours[TOGETHER]; /* as in space.h */

@@ -150,10 +150,18 @@ static bool is_divided(const celspan_coding *coding, const float rgba[4]) {
   return coding->alpha != CS_ALPHA_BLACK && rgba[3] > 0;
 }
 
+/* Codes of sRGB as light. count: at most CHUNK. */
+static void decode(size_t count, float colours[][4]) {
+  float shares[CHUNK][4];
+  for (size_t i = 0; i < count; i++)
+    cs_v4_store(shares[i], cs_v4_all(colours[i][3]));
+  CS_WIDE_CHOOSE(cs_isa_best(), cs_space_pixels)
+  (CELSPAN_SPACE_LINEAR, shares[0], (int32_t)count, colours[0]);
+}
+
 /* Conversions mix channels and have curves, so that only straight light can be given to them. Light
  * without alpha is converted as if it were opaque. */
 static void make_straight(const celspan_coding *coding, float rgba[4]) {
-  cs_space_decode(coding->space, rgba);
   bool is_dark = coding->alpha == CELSPAN_ALPHA_STRAIGHT && rgba[3] <= 0;
   for (int c = 0; c < 3; c++)
     rgba[c] = is_dark ? 0 : is_divided(coding, rgba) ? rgba[c] / rgba[3] : rgba[c];
@@ -171,6 +179,8 @@ static void finish_converted(const celspan_coding *coding, const float rgba[4], 
 /* count: at most CHUNK, because conversions are quicker for many colours at once. */
 static void convert(const celspan_coding *coding, const float *rgba, size_t count, float out[][4]) {
   memcpy(out, rgba, 4 * count * sizeof *rgba);
+  if (coding->space == CELSPAN_SPACE_SRGB)
+    decode(count, out);
   for (size_t i = 0; i < count; i++)
     make_straight(coding, out[i]);
   coding->convert(coding->user, out[0], count);
@@ -196,10 +206,9 @@ static void multiply(const float *rgba, size_t count, float coded[][4]) {
 static void encode_by_curve(const celspan_coding *coding, const float *rgba, size_t count,
                             float coded[][4]) {
   bool is_coded = is_in_codes(coding), is_multiplied = coding->alpha == CS_ALPHA_CODED;
-  bool is_decoded = coding->space == CELSPAN_SPACE_SRGB && !is_coded;
   memcpy(coded, rgba, 4 * count * sizeof *rgba);
-  for (size_t i = 0; i < count && is_decoded; i++)
-    cs_space_decode(coding->space, coded[i]);
+  if (coding->space == CELSPAN_SPACE_SRGB && !is_coded)
+    decode(count, coded);
   if (coding->alpha == CELSPAN_ALPHA_STRAIGHT || is_multiplied)
     CS_WIDE_CHOOSE(cs_isa_best(), cs_straight_divide)(coded[0], (int32_t)count, is_multiplied);
   if (!is_coded)
