@@ -164,9 +164,10 @@ async function play(seconds, from = 1) {
       .observe(document.querySelector("#canvas"), { attributes: true }); })()`);
   await page.press(" ");
   await page.pause(seconds);
+  const atEnd = await page.get(`document.querySelector("#canvas").width`);
   await page.press(" ");
   const frames = await page.get("seen.size");
-  return { frames_a_second: Math.round(10 * frames / seconds) / 10,
+  return { frames_a_second: Math.round(10 * frames / seconds) / 10, width: atEnd,
            server_cpu_ms: Math.round((serverTime() - server) / frames),
            page_cpu_ms: Math.round((pageTime() - own) / frames) };
 }

@@ -16,7 +16,7 @@ function middle(list) {
 
 const NOT_COMPARED = new Set(["shot.load", "film.load"]); // what else the machine did
 
-const isRate = item => item.endsWith("frames_a_second"); // more is better
+const isRate = item => /[.](frames_a_second|width)$/.test(item); // more is better
 
 /** The numbers of an object by their paths, such as "play.server_cpu_ms". */
 const flat = (value, path = []) => Object.entries(value ?? {}).flatMap(([name, one]) =>

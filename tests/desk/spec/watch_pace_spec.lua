@@ -20,7 +20,7 @@ function played(drawn, together) {
     while (waiting.length && waiting[0].at <= now) {
       const one = waiting.shift();
       here.add(one.number);
-      noteArrival(pace, one.began, one.at);
+      noteArrival(pace, one.began, one.at, 1);
     }
     while (waiting.length < 3) {
       const next = nextPlace(pace, place, elapsed, RATE, isAsked);
@@ -47,6 +47,27 @@ console.log(JSON.stringify({ list: [[15, 1], [21, 1], [13, 1], [18, 1], [40, 1],
   .map(one => played(...one)) }));
 ]=]
 
+-- The sizes in which a film of 24 frames a second is drawn. A sharp frame takes `frame(i)` seconds,
+-- and `share` of them is for its pixels, of which a smaller one has fewer.
+local SIZED = [=[
+function sized(frame, share = 1) {
+  const pace = newPace(), said = [];
+  for (let i = 0, now = 1; i < 400; i++) {
+    const whole = frame(i), took = whole * (1 - share + share / pace.coarse ** 2);
+    noteArrival(pace, now, now + took, pace.coarse);
+    now += Math.max(took, 1 / 24);
+    if (said.at(-1) !== pace.coarse) said.push(pace.coarse);
+    chooseSize(pace, 24);
+  }
+  return { list: said };
+}
+console.log(JSON.stringify({
+  fast: sized(() => 0.02), cold: sized(i => i === 0 ? 0.3 : 0.02), enough: sized(() => 0.04),
+  late: sized(() => 0.05), slow: sized(() => 0.12), slowest: sized(() => 1),
+  vain: sized(() => 0.1, 0.1), shot: sized(i => i < 200 ? 0.12 : 0.02),
+  unsteady: sized(i => i % 2 ? 0.03 : 0.05) }));
+]=]
+
 --- What a module of the page prints, as JSON, with more text at its end.
 local function run(module, text)
   local name = os.tmpname()
@@ -68,6 +89,14 @@ describe("playing", function()
       assert.is_true(one[2] < 5, one[2])
     end
     assert.equal(#least, #list)
+  end)
+
+  it("draws frames smaller only where this brings them in time, and does not flicker", function()
+    local said = run("pace.js", SIZED)
+    local sizes = {}
+    for name, one in pairs(said) do sizes[name] = table.concat(one.list, " ") end
+    assert.same({ fast = "1", cold = "1", enough = "1", unsteady = "1", late = "1 1.5",
+                  slow = "1 2", slowest = "1 3", vain = "1 2 1", shot = "1 2 1.5 1" }, sizes)
   end)
 
   it("leaves a bar for each of half a million frames", function()

@@ -147,4 +147,37 @@ describe("a slow frame", function()
     assert.equal("cS", sizes["5"])
     assert.equal("", said.fault)
   end)
+
+  it("is played smaller, at most a third, and is sharp where films are compared or it stops #plain",
+    function()
+      if not present.program "chromium" then return pending "there is no chromium" end
+      watching.begin { ["shot.lua"] = film(4000) }
+      local said = watching.see(watching.watch(), [=[
+        const width = `Number(${canvas("size")}?.split("x")[0])`;
+        await page.until(`${width} > 1000 && ${canvas("stale")} === undefined`);
+        const whole = await page.get(width);
+        const isSmall = `${width} === ${Math.ceil(whole / 3)}
+          && document.querySelector("#rate").textContent.endsWith(" fps 1/3 size")`;
+        const isSharp = `${width} === ${whole}
+          && document.querySelector("#rate").textContent.endsWith(" fps")`;
+        await page.press("l");
+        await page.until(isSmall);
+        await page.press("w");
+        await page.until(isSharp);
+        await page.press("w");
+        await page.until(isSmall);
+        await page.get(`(() => {
+          window.seen = [];
+          new MutationObserver(() => seen.push(${width})).observe(
+            document.querySelector("#canvas"), { attributeFilter: ["data-size"] });
+          document.body.dispatchEvent(new KeyboardEvent("keydown", { key: "k", bubbles: true }));
+        })()`);
+        await page.until(`${width} === ${whole} && ${canvas("stale")} === undefined`);
+        const seen = await page.get("seen"), rate = await text("rate");
+        for (const key of ["i", "ArrowRight", "o", "l"]) await page.press(key);
+        await page.until(isSharp); // all of a short loop can be kept
+        return { whole, seen, rate };]=])
+      assert.same({ said.whole }, said.seen)
+      assert.equal("", said.rate)
+    end)
 end)

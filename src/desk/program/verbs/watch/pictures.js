@@ -17,13 +17,13 @@ import { placePoints } from "/points.js";
 import { cels } from "/rows.js";
 import { unpack } from "/runs.js";
 import {
-  beside, buildOf, clamp, here, isReady, lanes, looks, main, overlay, part, play, ratio, setPressed,
+  beside, buildOf, here, isReady, lanes, looks, main, overlay, part, play, ratio, setPressed,
   state, stateOf, view, write, writeAttribute,
 } from "/state.js";
 import { drawRuler, loadWave } from "/timeline.js";
 import { fit, frameSize, visible } from "/view.js";
 
-const KEPT_MOST = 192 << 20; // bytes of pictures that are kept
+export const KEPT_MOST = 192 << 20; // bytes of pictures that are kept
 
 // seconds after which a picture is slow: then a coarse picture is shown first
 const SLOW = 0.15;
@@ -70,24 +70,24 @@ export function nameOf(one, number) {
 const onionOf = one => one === main && looks.onion && play.direction === 0
   ? `&onion=${looks.onion},${looks.onion}${cels.skins}` : "";
 
+/** How coarse pictures are now: sharp, but while the film plays and they would be late. */
+export const coarseNow = () => play.direction === 0 || looks.mixing ? 1 : play.pace.coarse;
+
 /** The part of a frame that is visible. coarse: that many pixels are one, in each direction. plain:
  * the address without an onion skin; query: how cels are shown. */
-export function wish(number, coarse = 1, one = main) {
+export function wish(number, one = main, coarse = coarseNow()) {
   const crop = visible(one), build = buildOf(one);
   if (!crop) return null;
-  let size = frameSize(one), area = crop;
-  if (coarse > 1) {
-    size = size.map(side => Math.max(1, Math.round(side / coarse)));
-    const x = Math.floor(crop[0] / coarse), y = Math.floor(crop[1] / coarse);
-    area = [Math.min(x, size[0] - 1), Math.min(y, size[1] - 1)];
-    area.push(clamp(Math.ceil(crop[2] / coarse), 1, size[0] - area[0]),
-              clamp(Math.ceil(crop[3] / coarse), 1, size[1] - area[1]));
+  const whole = frameSize(one), size = whole.map(side => Math.ceil(side / coarse));
+  const area = [0, 1].map(i => Math.floor(crop[i] * size[i] / whole[i]));
+  for (const i of [0, 1]) {
+    area.push(Math.ceil((crop[i] + crop[i + 2]) * size[i] / whole[i]) - area[i]);
   }
   const query = one === main ? cels.query : "&side=2";
   const plain = `/frame/${nameOf(one, number)}.runs?size=${size.join("x")}&crop=${area.join()}`
     + `&build=${build}${query}`;
   const address = plain + onionOf(one);
-  return { number, size, crop: area, address, plain, build, query, lane: one };
+  return { number, size, crop: area, coarse, address, plain, build, query, lane: one };
 }
 
 const pageName = Math.random().toString(36).slice(2);
@@ -121,7 +121,7 @@ function matteOf(bytes) {
 
 /** Whether the picture of a lane as it is now is painted. */
 export const isSeen = one => isReady(one)
-  && one.painted?.address === wish(view.number, 1, one)?.address;
+  && one.painted?.address === wish(view.number, one)?.address;
 
 /** Marks the canvas of a lane while it does not show what was wanted last: values, frame, place. It
  * is only seen after a while: a filter costs the browser two thirds of the time of a frame. */
@@ -137,9 +137,9 @@ export function markStale(one) {
   }
 }
 
-/** Whether a picture is of the first film as it is seen now, without an onion skin. */
+/** Whether a picture is of the first film as it is seen now, sharp and without an onion skin. */
 const isSeenNow = one => one.lane === main && !one.isOver && one.address === one.plain
-  && one.build === buildOf(main) && one.query === cels.query;
+  && one.coarse === 1 && one.build === buildOf(main) && one.query === cels.query;
 
 /** The numbers of the frames whose pictures are kept as they are seen now. */
 export function keptFrames() {
@@ -215,7 +215,7 @@ export function look() {
 /** Wants the picture of a lane as it is now, unless it is on its way. */
 export function want(one) {
   const onWay = one.fetching?.wanted.address;
-  one.isWanted = !isReady(one) || wish(view.number, 1, one)?.address !== onWay;
+  one.isWanted = !isReady(one) || wish(view.number, one)?.address !== onWay;
   if (!one.isAsking && isReady(one)) ask(one);
   else abandonOld(one);
   markStale(one);
@@ -225,7 +225,7 @@ async function ask(one) {
   one.isAsking = true;
   while (one.isWanted && isReady(one)) {
     one.isWanted = false;
-    const fine = wish(view.number, 1, one);
+    const fine = wish(view.number, one);
     if (!fine) break;
     try {
       const picture = await fetchBest(fine);
@@ -238,24 +238,30 @@ async function ask(one) {
   one.isAsking = false;
 }
 
+/** Whether the picture of a wish is painted already, if not as sharp: it was played. */
+function isRough({ lane, number }) {
+  const painted = lane.painted;
+  return painted && painted.address === wish(number, lane, painted.coarse)?.address;
+}
+
 /** Fetches a picture, and before it a coarse one if it is slow, or was at last; null: another one
  * is wanted by then. */
 async function fetchBest(fine) {
   const one = fine.lane, isSlow = one.slowness > SLOW && play.direction === 0;
-  if (isSlow && !kept.has(fine.address)) {
-    paint(await fetchPicture(wish(fine.number, one.slowness > VERY_SLOW ? 8 : 4, one)));
+  if (isSlow && !kept.has(fine.address) && !isRough(fine)) {
+    paint(await fetchPicture(wish(fine.number, one, one.slowness > VERY_SLOW ? 8 : 4)));
     await new Promise(requestAnimationFrame);
     if (one.isWanted) return null;
   }
   one.fetching = { wanted: fine, since: performance.now() / 1000 };
   const arrival = fetchPicture(fine);
-  if (!isSlow) paintMeanwhile(fine, arrival);
+  if (!isSlow && !isRough(fine)) paintMeanwhile(fine, arrival);
   return arrival;
 }
 
 /** Paints a coarse picture if a fine one does not arrive soon. */
 async function paintMeanwhile(fine, arrival) {
-  const one = fine.lane, coarse = wish(fine.number, 4, one);
+  const one = fine.lane, coarse = wish(fine.number, one, 4);
   const isOver = () => one.fetching?.wanted !== fine;
   const has = arrival.then(() => true, () => true);
   if (await Promise.race([has, pause(SLOW)]) || isOver() || play.direction !== 0 || !coarse) return;
@@ -288,7 +294,7 @@ async function abandonOld(one) {
   old.isLeft = true;
   await pause(old.since + SLOW - performance.now() / 1000);
   old.isLeft = false;
-  if (one.fetching !== old || wish(view.number, 1, one)?.address === old.wanted.address) return;
+  if (one.fetching !== old || wish(view.number, one)?.address === old.wanted.address) return;
   old.isLeft = true;
   abandon(old.wanted);
 }

@@ -5,13 +5,16 @@
 // A moment to draw costs the browser much, so it is asked for only when something is due.
 import { showFault } from "/faults.js";
 import { showNumbers } from "/news.js";
-import { newPace, nextPlace, noteArrival } from "/pace.js";
-import { abandon, failed, fetchPicture, kept, look, paint, wish } from "/pictures.js";
+import { SIZES, chooseSize, judge, nextPlace, noteArrival } from "/pace.js";
+import {
+  KEPT_MOST, abandon, coarseNow, failed, fetchPicture, kept, look, paint, wish,
+} from "/pictures.js";
 import {
   beginSound, endSound, feedSound, hasSound, heardSeconds, muteSound, setSoundOf, tapSound,
 } from "/sound.js";
 import {
-  clamp, element, here, icon, isReady, lanes, loop, play, setPressed, setWords, state, view, write,
+  clamp, element, here, icon, isReady, lanes, looks, loop, play, setPressed, setWords, state, view,
+  write,
 } from "/state.js";
 import { drawRuler, followHead } from "/timeline.js";
 
@@ -21,6 +24,7 @@ let timer = 0;         // for the next call of proceed
 const AHEAD = 8, AT_ONCE = 3;
 const BEHIND = 24;           // frames that a picture may be late
 const REST_MOST = 200;       // milliseconds between two looks at the clock
+const SHARP_SHARE = 1.5;     // the memory of sharp pictures with small ones beside them
 
 function go(number) {
   if (!state.film) return;
@@ -47,6 +51,7 @@ export function start(direction) {
   play.start = performance.now() / 1000;
   Object.assign(play, { isHeard: false, passed: 0, painted: [], place: -1, isAsked: false });
   refused.clear();
+  judge(pace);
   if (direction > 0) beginSound(view.number - 1, play.speed, loop.from - 1, loop.to - 1);
   else endSound();
   play.shown = -1;
@@ -82,8 +87,9 @@ function onward(number, by) {
 }
 
 const asked = new Map(); // requests that were made ahead, by the number of the frame
-const refused = new Set(); // addresses of pictures that failed since the start
-const pace = newPace();
+const refused = new Set(); // names of pictures that failed since the start, in whatever size
+const nameOfWish = ({ lane, number, build, query }) => [lane.side, number, build, query].join();
+const { pace } = play;
 
 /** Asks for the next pictures, for those that can be here in time. elapsed: frames since the
  * start. */
@@ -97,21 +103,37 @@ function askAhead(elapsed) {
   }
 }
 
+/** Asks for a sharp picture when all small ones of the loop are here, and plays sharp ones when all
+ * of them are. */
+function askSharp() {
+  if (asked.size > 0 || coarseNow() === 1) return;
+  const length = loop.to - loop.from + 1;
+  const bytes = wishes(loop.from, 1).reduce((all, { crop: [, , w, h] }) => all + 4 * w * h, 0);
+  if (SHARP_SHARE * bytes * length > KEPT_MOST) return;
+  const numbers = Array.from({ length }, (_, i) => loop.from + i);
+  if (numbers.some(number => missingOf(number).length > 0)) return;
+  if (!numbers.some(number => askBoth(number, 1))) judge(pace, 1);
+}
+
 /** The lanes that play: with one whose film cannot be shown the other plays alone. */
 const playing = () => lanes().filter(isReady);
 
-const wishes = number => playing().map(one => wish(number, 1, one)).filter(Boolean);
+const wishes = (number, coarse) => playing().map(one => wish(number, one, coarse)).filter(Boolean);
+
+const missingOf = (number, coarse) => wishes(number, coarse)
+  .filter(one => !kept.has(one.address) && !refused.has(nameOfWish(one)));
 
 /** Asks for a frame of all films that play, if it is not here, not on its way, and has not failed.
  * Returns whether it is asked for. */
-function askBoth(number) {
-  const missing = wishes(number)
-    .filter(({ address }) => !kept.has(address) && !refused.has(address));
+function askBoth(number, coarse = coarseNow()) {
+  const missing = missingOf(number, coarse);
   if (missing.length === 0 || asked.has(number)) return false;
   asked.set(number, missing);
   const began = performance.now();
   Promise.all(missing.map(fetchOne)).then(all => {
-    if (all.every(Boolean)) noteArrival(pace, began / 1000, performance.now() / 1000);
+    if (!all.every(Boolean)) return;
+    noteArrival(pace, began / 1000, performance.now() / 1000, coarse);
+    if (isPlaying() && !looks.mixing) chooseSize(pace, state.film.fps * play.speed);
   }).finally(() => {
     asked.delete(number);
     proceed();
@@ -125,7 +147,7 @@ async function fetchOne(wanted) {
     await fetchPicture(wanted);
     return true;
   } catch (fault) {
-    if (fault.status !== 503) refused.add(wanted.address);
+    if (fault.status !== 503) refused.add(nameOfWish(wanted));
     await failed(fault, wanted);
     return false;
   }
@@ -136,11 +158,14 @@ const isKnown = ({ address, lane, number, build }) =>
   kept.has(address) || lane.refused.get(number)?.build === build;
 
 /** The frame that is due after that many frames, or the newest before it that has not been shown:
- * what is wanted of it, its number and its place; null: there is none. */
+ * what is known of it, in the size of now or in another, its number and its place; null: there is
+ * none. */
 function dueFrame(passed) {
+  const sizes = looks.mixing ? [1] : [coarseNow(), ...SIZES.keys()];
   for (let at = passed; at > play.shown && at > passed - BEHIND; at--) {
-    const number = onward(play.number, at * play.direction), all = wishes(number);
-    if (all.length > 0 && all.every(isKnown)) return { all, number, at };
+    const number = onward(play.number, at * play.direction);
+    const all = sizes.map(coarse => wishes(number, coarse)).find(one => one.every(isKnown));
+    if (all?.length > 0) return { all, number, at };
   }
   return null;
 }
@@ -169,7 +194,8 @@ function passedSeconds() {
 function showRate(now) {
   play.painted = play.painted.filter(time => now - time < 1000);
   const age = Math.min(play.passed, 1);
-  setWords("rate", age > 0.5 ? `${(play.painted.length / age).toFixed(1)} fps` : "");
+  const rate = `${(play.painted.length / age).toFixed(1)} fps`;
+  setWords("rate", age > 0.5 ? `${rate} ${SIZES.get(coarseNow())}`.trim() : "");
 }
 
 const isPlaying = () => play.direction !== 0 && Boolean(state.film);
@@ -188,6 +214,7 @@ function proceed() {
   timer = setTimeout(proceed, Math.min(Math.ceil(rest * 1000), REST_MOST));
   if (document.hidden) return;
   askAhead(elapsed);
+  askSharp();
   if (play.direction > 0) feedSound(onward(play.number, passed) - 1 + elapsed - passed);
   const now = performance.now();
   if (!(now - play.painted.at(-1) < 1000)) showRate(now); // also where there is none

@@ -3,6 +3,8 @@
 //   /state.json --> state (what the server has said)    keys, hands --> view, loop, play, shown
 //                        \                                /
 //                         everything that is drawn is drawn from these
+import { newPace } from "/pace.js";
+
 export const here = id => document.getElementById(id);
 export const desk = here("desk");
 export const overlay = here("overlay");
@@ -13,11 +15,11 @@ export const state = { news: 0, build: 0, film: null, errors: [], shown: false, 
 // frame's corner in the window, in device pixels. isFitted: scale and place follow the window.
 export const view = { number: 1, scale: 1, x: 0, y: 0, isFitted: true };
 export const loop = { from: 1, to: 1 };
-// place: of the frame that was asked for last, isAsked: it had to be; see pace.js.
+// place: of the frame that was asked for last, isAsked: it had to be; pace: how fast frames come.
 // start: by the clock of the sound while the sound is heard, otherwise by the machine's clock, in
 // seconds.
 export const play = { direction: 0, speed: 1, start: 0, isHeard: false, passed: 0, number: 1,
-                      shown: -1, painted: [], place: -1, isAsked: false };
+                      shown: -1, painted: [], place: -1, isAsked: false, pace: newPace() };
 // How pictures are looked at. mixing: "", "wipe" or "differ"; held: the frame that others are
 // compared with, 0: the frame before the last save; older: the picture at this place before it;
 // onion: the number of drawings before and after. hasHandles: whether points have some.
