@@ -313,8 +313,8 @@ static cs_exit start_script(cs_script *out, const cs_request *request, const cha
   return outcome;
 }
 
-static cs_exit open_script(celspan_context *context, const cs_request *request, const char *path,
-                           bool is_silent, cs_script *out) {
+cs_exit cs_script_open(celspan_context *context, const cs_request *request, const char *path,
+                       bool is_silent, cs_script *out) {
   *out = (cs_script){.context = context,
                      .is_trusted = cs_request_has(request, "--trust"),
                      .asks_files = request->verb->asks_files || cs_request_has(request, "--files"),
@@ -337,16 +337,6 @@ static cs_exit open_script(celspan_context *context, const cs_request *request, 
   int raised = lua_pcall(out->L, 2, 0, 0);
   return raised == LUA_OK ? CS_EXIT_OK
                           : cs_report_failure(context, cs_lua_error_report(out->L, raised), NULL);
-}
-
-cs_exit cs_script_open(celspan_context *context, const cs_request *request, const char *path,
-                       cs_script *out) {
-  return open_script(context, request, path, false, out);
-}
-
-cs_exit cs_script_open_again(celspan_context *context, const cs_request *request, const char *path,
-                             cs_script *out) {
-  return open_script(context, request, path, true, out);
 }
 
 void cs_script_close(cs_script *script) {

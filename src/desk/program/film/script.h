@@ -38,12 +38,10 @@ cs_exit cs_script_report_start(lua_State *L);
  * reported. */
 cs_exit cs_script_give_settings(celspan_context *context, const cs_request *request, lua_State *L);
 
-/* Runs the script under the request. OK, or reported; *out may be closed in both cases. */
+/* Runs the script under the request. OK, or reported; *out may be closed in both cases. is_silent:
+ * it was run before, and prints nothing now. */
 cs_exit cs_script_open(celspan_context *context, const cs_request *request, const char *path,
-                       cs_script *out);
-/* The same for a second run: the script prints nothing. */
-cs_exit cs_script_open_again(celspan_context *context, const cs_request *request, const char *path,
-                             cs_script *out);
+                       bool is_silent, cs_script *out);
 void cs_script_close(cs_script *script);
 
 /* Builds a frame of the film and frees the previous one. On failure the sentence, which names the

@@ -29,7 +29,7 @@ static cs_still still_of(const cs_script *script) {
 static cs_exit open_artwork(celspan_context *context, const cs_request *request, const char *path,
                             int32_t frame, cs_still *out) {
   cs_script script;
-  cs_exit outcome = cs_script_open(context, request, path, &script);
+  cs_exit outcome = cs_script_open(context, request, path, false, &script);
   const int64_t count = outcome == CS_EXIT_OK ? script.film.count : 0;
   if (outcome == CS_EXIT_OK && frame > count)
     outcome =

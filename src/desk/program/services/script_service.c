@@ -470,8 +470,7 @@ static int open_script(lua_State *L) {
   f->pictures.context = session->context;
   f->pictures.progress = cs_interrupt_progress;
   f->pictures.is_deep = cs_request_has(request, "--deep");
-  cs_service_require(L, (is_silent ? cs_script_open_again
-                                   : cs_script_open)(session->context, request, path, &f->script));
+  cs_service_require(L, cs_script_open(session->context, request, path, is_silent, &f->script));
   lua_setfield(L, -2, "open");
   set_facts(L, &f->script.film);
   set_methods(L);

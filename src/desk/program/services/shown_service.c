@@ -404,7 +404,7 @@ static int tiles(lua_State *L) {
 /* ---------------------------------------------------------------- opening */
 
 static cs_exit open_script(shown *s, const cs_request *request, const char *path) {
-  CS_TRY_EXIT(cs_script_open(s->context, request, path, &s->script));
+  CS_TRY_EXIT(cs_script_open(s->context, request, path, false, &s->script));
   return cs_script_frame(&s->script, request, &s->frame);
 }
 
