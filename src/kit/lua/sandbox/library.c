@@ -8,6 +8,13 @@ void cs_library_copy_fields(lua_State *L, int from, const char *const *names) {
   }
 }
 
+int cs_library_call(lua_State *L) {
+  lua_pushvalue(L, lua_upvalueindex(1));
+  lua_insert(L, 1);
+  lua_call(L, lua_gettop(L) - 1, LUA_MULTRET);
+  return lua_gettop(L);
+}
+
 void cs_library_push_part(lua_State *L, const char *name, const char *const *same,
                           const luaL_Reg *own) {
   lua_getglobal(L, name);

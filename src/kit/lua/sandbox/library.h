@@ -23,6 +23,9 @@ void cs_library_copy_fields(lua_State *L, int from, const char *const *names);
 void cs_library_push_part(lua_State *L, const char *name, const char *const *same,
                           const luaL_Reg *own);
 
+/* Calls Lua's function, which is upvalue 1, with the arguments, and returns all its results. */
+int cs_library_call(lua_State *L);
+
 /* This function and the next ones push a table of functions each. */
 void cs_library_push_string(lua_State *L);
 void cs_library_push_table(lua_State *L);

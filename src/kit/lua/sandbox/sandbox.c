@@ -146,22 +146,15 @@ static int open_file(lua_State *L) {
     cs_host_admit(L, path);
   }
   lua_settop(L, 2);
-  lua_pushvalue(L, lua_upvalueindex(1));
-  lua_insert(L, 1);
-  lua_call(L, 2, LUA_MULTRET);
-  return lua_gettop(L);
+  return cs_library_call(L);
 }
 
 /* os.remove and os.rename for celspan's modules. upvalue 1: Lua's function. */
 static int change_file(lua_State *L) {
-  int count = lua_gettop(L);
-  for (int i = 1; i <= count; i++)
+  for (int i = 1; i <= lua_gettop(L); i++)
     if (!cs_host_may_write(L, luaL_checkstring(L, i)))
       return luaL_error(L, "%s", celspan_context_error(cs_host_context(L)));
-  lua_pushvalue(L, lua_upvalueindex(1));
-  lua_insert(L, 1);
-  lua_call(L, count, LUA_MULTRET);
-  return lua_gettop(L);
+  return cs_library_call(L);
 }
 
 /* Limits a library in the table on top to the named functions, each wrapped in `function`. */

@@ -231,10 +231,7 @@ static int rep(lua_State *L) {
   if (__builtin_mul_overflow(size + gap, (size_t)count, &all) || all > INT_MAX)
     return luaL_error(L, "resulting string too large");
   cs_guard_charge(L, (uint64_t)count + all / BYTES_A_STEP);
-  lua_pushvalue(L, lua_upvalueindex(1));
-  lua_insert(L, 1);
-  lua_call(L, lua_gettop(L) - 1, 1);
-  return 1;
+  return cs_library_call(L);
 }
 
 /* The letter of the conversion at the '%' at `at`; '\0': there is none. */
@@ -262,10 +259,7 @@ static int format(lua_State *L) {
       lua_replace(L, argument);
     }
   }
-  lua_pushvalue(L, lua_upvalueindex(1));
-  lua_insert(L, 1);
-  lua_call(L, lua_gettop(L) - 1, 1);
-  return 1;
+  return cs_library_call(L);
 }
 
 /* upvalue 1: Lua's function, which processes the text of argument 1. */
@@ -273,11 +267,7 @@ static int charged(lua_State *L) {
   size_t size;
   luaL_checklstring(L, 1, &size);
   cs_guard_charge(L, size / BYTES_A_STEP);
-  int count = lua_gettop(L);
-  lua_pushvalue(L, lua_upvalueindex(1));
-  lua_insert(L, 1);
-  lua_call(L, count, LUA_MULTRET);
-  return lua_gettop(L);
+  return cs_library_call(L);
 }
 
 /* Sets functions in the table on top. Each wraps the function of the same name in the table below

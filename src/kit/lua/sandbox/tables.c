@@ -32,15 +32,6 @@ static lua_Integer check_length(lua_State *L, int index, const char *name, lua_I
   return cs_list_border(L, index, exact);
 }
 
-/* Calls Lua's function, upvalue 1, with the arguments. */
-static int call(lua_State *L) {
-  int count = lua_gettop(L);
-  lua_pushvalue(L, lua_upvalueindex(1));
-  lua_insert(L, 1);
-  lua_call(L, count, LUA_MULTRET);
-  return lua_gettop(L);
-}
-
 /* As Lua's insert, which would use a different length. */
 static int insert(lua_State *L) {
   lua_Integer end = check_length(L, 1, "insert", EXACT) + 1, at = end;
@@ -78,7 +69,7 @@ static int remove_item(lua_State *L) {
 static int move(lua_State *L) {
   luaL_checktype(L, 1, LUA_TTABLE);
   check_count(L, "move", luaL_checkinteger(L, 2), luaL_checkinteger(L, 3));
-  return call(L);
+  return cs_library_call(L);
 }
 
 /* Calls Lua's function with the end of the range as argument `last`. */
@@ -87,7 +78,7 @@ static int call_to(lua_State *L, int last, lua_Integer end) {
     lua_settop(L, last);
   lua_pushinteger(L, end);
   lua_replace(L, last);
-  return call(L);
+  return cs_library_call(L);
 }
 
 static int concat(lua_State *L) {
