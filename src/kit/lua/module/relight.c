@@ -18,18 +18,16 @@
 /* The light that was removed from the picture cannot be computed again from fields. */
 static const cs_noun noun = {.name = "relit", .kind = &cs_kind_texture, CS_BARE};
 
-/* Pushes a closed value, which will hold the texture that the core makes. */
-static cs_userdata *push_value(lua_State *L, celspan_context *context) {
+/* Pushes a closed value. Returns where it holds the texture that the core makes. */
+static celspan_texture **push_value(lua_State *L, celspan_context *context) {
   cs_named_begin(L, context);
-  return cs_bare_push(L, &noun);
+  return (celspan_texture **)&cs_bare_push(L, &noun)->handle;
 }
 
-/* Fills the value on top of the stack, or returns the failure to the script. */
-static int finish(lua_State *L, celspan_context *context, cs_userdata *value, celspan_status status,
-                  celspan_texture *texture) {
+/* Returns the value on top of the stack, or the failure, to the script. */
+static int finish(lua_State *L, celspan_context *context, celspan_status status) {
   cs_named_end(context);
   CS_HOST_TRY(L, status);
-  value->handle = texture;
   return 1;
 }
 
@@ -109,10 +107,8 @@ int cs_relight_shape(lua_State *L) {
   celspan_light_field field = field_at(L, 1);
   int32_t width = (int32_t)luaL_checkinteger(L, 2), height = (int32_t)luaL_checkinteger(L, 3);
   celspan_context *context = cs_host_context(L);
-  celspan_texture *texture = NULL;
-  cs_userdata *value = push_value(L, context);
-  celspan_status status = celspan_light_field_texture(context, &field, width, height, &texture);
-  return finish(L, context, value, status, texture);
+  celspan_texture **texture = push_value(L, context);
+  return finish(L, context, celspan_light_field_texture(context, &field, width, height, texture));
 }
 
 /* ---------------------------------------------------------------- light taken off */
@@ -121,21 +117,18 @@ int cs_relight_picture(lua_State *L) {
   const celspan_texture *picture = texture_at(L, 1);
   celspan_light_field light = field_at(L, 2);
   celspan_context *context = cs_host_context(L);
-  celspan_texture *texture = NULL;
-  cs_userdata *value = push_value(L, context);
-  celspan_status status = celspan_relight_picture(context, picture, &light, &texture);
-  return finish(L, context, value, status, texture);
+  celspan_texture **texture = push_value(L, context);
+  return finish(L, context, celspan_relight_picture(context, picture, &light, texture));
 }
 
 int cs_relight_exposures(lua_State *L) {
   const celspan_texture *front = texture_at(L, 1), *back = texture_at(L, 3);
   celspan_light_field front_light = field_at(L, 2), back_light = field_at(L, 4);
   celspan_context *context = cs_host_context(L);
-  celspan_texture *texture = NULL;
-  cs_userdata *value = push_value(L, context);
-  celspan_status status =
-      celspan_relight_exposures(context, front, &front_light, back, &back_light, &texture);
-  return finish(L, context, value, status, texture);
+  celspan_texture **texture = push_value(L, context);
+  return finish(
+      L, context,
+      celspan_relight_exposures(context, front, &front_light, back, &back_light, texture));
 }
 
 /* The picture at index, and its ground at the next index. */
@@ -152,10 +145,8 @@ int cs_relight_grounds(lua_State *L) {
   const celspan_relight_ground grounds[2] = {ground_at(L, 1), ground_at(L, 3)};
   celspan_light_field light = field_at(L, 5);
   celspan_context *context = cs_host_context(L);
-  celspan_texture *texture = NULL;
-  cs_userdata *value = push_value(L, context);
-  celspan_status status = celspan_relight_grounds(context, grounds, &light, &texture);
-  return finish(L, context, value, status, texture);
+  celspan_texture **texture = push_value(L, context);
+  return finish(L, context, celspan_relight_grounds(context, grounds, &light, texture));
 }
 
 /* ---------------------------------------------------------------- files */
@@ -174,8 +165,6 @@ int cs_relight_write(lua_State *L) {
 int cs_relight_read(lua_State *L) {
   const char *path = cs_files_find(L, cs_files_name(L, 1), NULL);
   celspan_context *context = cs_host_context(L);
-  celspan_texture *texture = NULL;
-  cs_userdata *value = push_value(L, context);
-  celspan_status status = celspan_relight_read(context, path, &texture);
-  return finish(L, context, value, status, texture);
+  celspan_texture **texture = push_value(L, context);
+  return finish(L, context, celspan_relight_read(context, path, texture));
 }
