@@ -18,6 +18,10 @@ struct Part {
 
 class PartInput : public OIIO::ImageInput {
 public:
+  using OIIO::ImageInput::open;
+  bool open(const std::string &name, OIIO::ImageSpec &spec) override {
+    return open(name, spec, OIIO::ImageSpec());
+  }
   int supports(OIIO::string_view feature) const override { return feature == "ioproxy"; }
   bool read_native_scanline(int subimage, int miplevel, int y, int, void *data) override {
     lock_guard lock(*this);
@@ -50,6 +54,14 @@ protected:
   bool open_bytes(const std::string &name, const OIIO::ImageSpec &config) {
     ioproxy_retrieve_from_config(config);
     return ioproxy_use_or_open(name);
+  }
+  /* The end of opening: gives the description of the picture, or closes what was opened. */
+  bool finish(bool is_good, OIIO::ImageSpec &spec) {
+    if (is_good)
+      spec = m_spec;
+    else
+      close();
+    return is_good;
   }
   /* The open file as a spanfile_source or a planefile_source. */
   template <class Source> Source source() {
@@ -95,3 +107,12 @@ inline bool begins(const std::string &name, size_t size, bool (*is)(const void *
   OIIO::Filesystem::IOFile file(name, OIIO::Filesystem::IOProxy::Read);
   return size <= sizeof start && file.pread(start, size, 0) == size && is(start, size);
 }
+
+/* The symbols that the library looks up in a plug-in of this name. */
+#define PART_INPUT_PLUGIN(name, Input)                                                             \
+  OIIO_PLUGIN_EXPORTS_BEGIN                                                                        \
+  OIIO_EXPORT OIIO::ImageInput *name##_input_imageio_create() { return new Input; }                \
+  OIIO_EXPORT int name##_imageio_version = OIIO_PLUGIN_VERSION;                                    \
+  OIIO_EXPORT const char *name##_imageio_library_version() { return nullptr; }                     \
+  OIIO_EXPORT const char *name##_input_extensions[] = {#name, nullptr};                            \
+  OIIO_PLUGIN_EXPORTS_END

@@ -27,9 +27,7 @@ public:
   bool valid_file(const std::string &name) const override {
     return begins(name, PLANEFILE_MAGIC_BYTES, planefile_is);
   }
-  bool open(const std::string &name, ImageSpec &spec) override {
-    return open(name, spec, ImageSpec());
-  }
+  using PartInput::open;
   bool open(const std::string &name, ImageSpec &spec, const ImageSpec &config) override;
   bool close() override;
 
@@ -104,12 +102,7 @@ bool PlaneInput::open(const std::string &name, ImageSpec &spec, const ImageSpec 
   take_hints(file, hints);
   if (!open_bytes(file, hints))
     return false;
-  if (!create_plane(hints) || !choose_size(hints)) {
-    close();
-    return false;
-  }
-  spec = m_spec;
-  return true;
+  return finish(create_plane(hints) && choose_size(hints), spec);
 }
 
 bool PlaneInput::close() {
@@ -170,12 +163,4 @@ bool PlaneInput::read_part(const Part &part, void *data, size_t stride) {
 
 } // namespace
 
-/* The symbols that the library looks up in a plug-in of this name. */
-OIIO_PLUGIN_EXPORTS_BEGIN
-
-OIIO_EXPORT OIIO::ImageInput *plane_input_imageio_create() { return new PlaneInput; }
-OIIO_EXPORT int plane_imageio_version = OIIO_PLUGIN_VERSION;
-OIIO_EXPORT const char *plane_imageio_library_version() { return nullptr; }
-OIIO_EXPORT const char *plane_input_extensions[] = {"plane", nullptr};
-
-OIIO_PLUGIN_EXPORTS_END
+PART_INPUT_PLUGIN(plane, PlaneInput)

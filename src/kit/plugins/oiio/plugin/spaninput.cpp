@@ -20,9 +20,7 @@ public:
   bool valid_file(const std::string &name) const override {
     return begins(name, SPANFILE_MAGIC_BYTES, spanfile_is);
   }
-  bool open(const std::string &name, ImageSpec &spec) override {
-    return open(name, spec, ImageSpec());
-  }
+  using PartInput::open;
   bool open(const std::string &name, ImageSpec &spec, const ImageSpec &config) override;
   bool close() override;
 
@@ -64,12 +62,7 @@ bool SpanInput::open(const std::string &name, ImageSpec &spec, const ImageSpec &
   is_straight_ = config.get_int_attribute("oiio:UnassociatedAlpha", 0) == 1;
   if (!open_bytes(name, config))
     return false;
-  if (!create_reader() || !describe_file()) {
-    close();
-    return false;
-  }
-  spec = m_spec;
-  return true;
+  return finish(create_reader() && describe_file(), spec);
 }
 
 bool SpanInput::close() {
@@ -101,12 +94,4 @@ bool SpanInput::read_part(const Part &part, void *data, size_t stride) {
 
 } // namespace
 
-/* The symbols that the library looks up in a plug-in of this name. */
-OIIO_PLUGIN_EXPORTS_BEGIN
-
-OIIO_EXPORT OIIO::ImageInput *span_input_imageio_create() { return new SpanInput; }
-OIIO_EXPORT int span_imageio_version = OIIO_PLUGIN_VERSION;
-OIIO_EXPORT const char *span_imageio_library_version() { return nullptr; }
-OIIO_EXPORT const char *span_input_extensions[] = {"span", nullptr};
-
-OIIO_PLUGIN_EXPORTS_END
+PART_INPUT_PLUGIN(span, SpanInput)
