@@ -87,6 +87,8 @@
   OPTION("--onion", "B,A", &cs_argument_onion,                                                     \
          "show the B drawings before (red) and the A drawings after (green), counted for each "    \
          "cel, behind the drawing of each frame")
+/* Which cels of a frame are seen, and their background. */
+#define CELS BACKGROUND, CEL, LAYERS, CRYPTOMATTE, ONION
 #define LOUDNESS                                                                                   \
   OPTION("--loudness", "LUFS", &cs_argument_loudness,                                              \
          "the loudness of the whole sound by EBU R 128, such as -14; default: as it is mixed")
@@ -183,11 +185,7 @@ static const cs_option RENDER[] = {
     DRAWING,
     VIDEO,
     RATE,
-    BACKGROUND,
-    CEL,
-    LAYERS,
-    CRYPTOMATTE,
-    ONION,
+    CELS,
     WORKERS,
     PROGRESS,
     {"--hash", NULL, NULL, "print FRAME DIGEST for the pixels of each frame; -o may be omitted"},
@@ -444,11 +442,7 @@ static const cs_option FARM[] = {
     DITHER,
     VIDEO,
     RATE,
-    BACKGROUND,
-    CEL,
-    LAYERS,
-    CRYPTOMATTE,
-    ONION,
+    CELS,
     FORCE,
     KEEP_GOING,
     {"--log", "FILE", &cs_argument_file,

@@ -36,7 +36,8 @@ typedef struct cs_stage_picture {
   cs_png_strips *strips; /* the strips of a PNG that is being made */
 } cs_stage_picture;
 
-/* p: all zero, except the first two fields. It must be released, whatever this returns. Any thread. */
+/* p: all zero, except the first two fields. It must be released, whatever this returns. Any
+ * thread. */
 CELSPAN_CHECKED celspan_status cs_stage_make(cs_stage_picture *p, celspan_context *context,
                                              const celspan_frame_desc *desc, cs_stage_kind kind);
 void cs_stage_release(cs_stage_picture *p);
