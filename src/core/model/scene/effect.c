@@ -4,26 +4,30 @@
 
 /* ---------------------------------------------------------------- modes */
 
-celspan_status cs_effect_give_mode(celspan_context *context, celspan_object **object,
-                                   celspan_blend mode) {
-  celspan_object *made;
-  CS_TRY(celspan_object_blend(context, *object, mode, &made));
+celspan_status cs_effect_replace(celspan_object **object, celspan_status status,
+                                 celspan_object *made) {
+  CS_TRY(status);
   celspan_object_unref(*object);
   *object = made;
   return CELSPAN_OK;
+}
+
+celspan_status cs_effect_give_mode(celspan_context *context, celspan_object **object,
+                                   celspan_blend mode) {
+  celspan_object *made = NULL;
+  celspan_status status = celspan_object_blend(context, *object, mode, &made);
+  return cs_effect_replace(object, status, made);
 }
 
 /* Gives *object the mode of another object, which may be limited to the backdrop. */
 static celspan_status give_mode_of(celspan_context *context, celspan_object **object,
                                    const celspan_object *like) {
   const celspan_blend mode = celspan_object_mode(like);
-  celspan_object *made;
+  celspan_object *made = NULL;
   if (cs_object_mode(like) == mode)
     return cs_effect_give_mode(context, object, mode);
-  CS_TRY(cs_object_blend_within(context, *object, mode, &made));
-  celspan_object_unref(*object);
-  *object = made;
-  return CELSPAN_OK;
+  celspan_status status = cs_object_blend_within(context, *object, mode, &made);
+  return cs_effect_replace(object, status, made);
 }
 
 /* Gives the mode, the name and the line of an object to the result of an effect, which was made of

@@ -9,6 +9,9 @@
 typedef celspan_status (*cs_effect_maker)(celspan_context *context, celspan_object *object,
                                           const void *desc, celspan_object **made);
 
+/* Replaces *object by the new object, unless making it has failed with this status. */
+CELSPAN_CHECKED celspan_status cs_effect_replace(celspan_object **object, celspan_status status,
+                                                 celspan_object *made);
 /* Gives *object a mode. Errors: NO_MEMORY, LIMIT. */
 CELSPAN_CHECKED celspan_status cs_effect_give_mode(celspan_context *context,
                                                    celspan_object **object, celspan_blend mode);

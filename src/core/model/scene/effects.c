@@ -28,27 +28,17 @@
 
 /* ---------------------------------------------------------------- steps */
 
-/* Replaces *object by the new object, unless making it has failed. */
-static celspan_status replace(celspan_object **object, celspan_status status,
-                              celspan_object *made) {
-  if (status != CELSPAN_OK)
-    return status;
-  celspan_object_unref(*object);
-  *object = made;
-  return CELSPAN_OK;
-}
-
 static celspan_status move(celspan_context *context, celspan_object **object, double x, double y) {
   celspan_object *made = NULL;
   const celspan_matrix matrix = celspan_matrix_translation(x, y);
   celspan_status status = celspan_object_transform(context, *object, &matrix, &made);
-  return replace(object, status, made);
+  return cs_effect_replace(object, status, made);
 }
 
 static celspan_status fade(celspan_context *context, celspan_object **object, double k) {
   celspan_object *made = NULL;
   celspan_status status = celspan_object_fade(context, *object, k, &made);
-  return replace(object, status, made);
+  return cs_effect_replace(object, status, made);
 }
 
 /* Makes *object present where `by` is present, or where it is not. */
@@ -57,7 +47,7 @@ static celspan_status mask(celspan_context *context, celspan_object **object, ce
   celspan_object *made = NULL;
   celspan_status status =
       celspan_object_create_matte(context, *object, by, CELSPAN_MATTE_ALPHA, inverts, &made);
-  return replace(object, status, made);
+  return cs_effect_replace(object, status, made);
 }
 
 /* ---------------------------------------------------------------- blur */
@@ -176,7 +166,7 @@ static celspan_status blur_silhouette(celspan_context *context, celspan_object *
   if (look->radius == 0 && look->gain == 1)
     return CELSPAN_OK;
   celspan_status status = blur(context, *object, &desc, look->gain, &made);
-  return replace(object, status, made);
+  return cs_effect_replace(object, status, made);
 }
 
 static celspan_status make_silhouette(celspan_context *context, celspan_object *object,
@@ -201,7 +191,7 @@ static celspan_status join(celspan_context *context, celspan_object **effect,
   desc.objects = both;
   desc.object_count = 2;
   celspan_status status = celspan_object_create_group(context, &desc, &made);
-  return replace(effect, status, made);
+  return cs_effect_replace(effect, status, made);
 }
 
 /* ---------------------------------------------------------------- shadows */
@@ -307,7 +297,7 @@ static celspan_status brighten(celspan_context *context, celspan_object **object
   celspan_object *made = NULL;
   fields.exposure = SPREAD_STOPS;
   celspan_status status = cs_object_graded(context, *object, &fields, &made);
-  return replace(object, status, made);
+  return cs_effect_replace(object, status, made);
 }
 
 /* A white silhouette, spread by the width. */

@@ -14,6 +14,7 @@
 #include "base/description.h"
 #include "model/scene/bounds.h"
 #include "model/scene/check.h"
+#include "model/scene/effect.h"
 #include "model/scene/grow.h"
 
 /* Half of white, as a code of sRGB; and how far around it a silhouette is whole by parts. */
@@ -127,24 +128,20 @@ static celspan_status grow(celspan_context *context, celspan_object **by,
                            celspan_matte_desc *desc) {
   const cs_grow how = {desc->grow, CELSPAN_STROKE_JOIN_ROUND};
   const bool is_shape = desc->from == CELSPAN_MATTE_ALPHA && is_solid(*by);
-  celspan_object *grown;
-  CS_TRY(is_shape ? cs_grow_object(context, *by, &how, &grown)
-                  : grow_any(context, *by, desc, &grown));
-  celspan_object_unref(*by);
-  *by = grown;
+  celspan_object *grown = NULL;
+  celspan_status status =
+      is_shape ? cs_grow_object(context, *by, &how, &grown) : grow_any(context, *by, desc, &grown);
   desc->from = CELSPAN_MATTE_ALPHA;
-  return CELSPAN_OK;
+  return cs_effect_replace(by, status, grown);
 }
 
 static celspan_status feather(celspan_context *context, celspan_object **by,
                               const celspan_matte_desc *desc) {
   celspan_blur_desc fields = CELSPAN_BLUR_DESC;
-  celspan_object *soft;
+  celspan_object *soft = NULL;
   fields.radius = desc->feather;
-  CS_TRY(celspan_object_blur(context, *by, &fields, &soft));
-  celspan_object_unref(*by);
-  *by = soft;
-  return CELSPAN_OK;
+  celspan_status status = celspan_object_blur(context, *by, &fields, &soft);
+  return cs_effect_replace(by, status, soft);
 }
 
 static celspan_status check(celspan_context *context, celspan_object *by,
