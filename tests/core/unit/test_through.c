@@ -2,6 +2,7 @@
  * painted are painted, and cutting and culling by them changes no pixel.
  */
 #include "engine/compose/tree.h"
+#include "engine/paint/colours.h"
 #include "engine/paint/shade.h"
 #include "frames/render/through.h"
 #include "model/geometry/matrix.h"
@@ -297,6 +298,38 @@ static void test_pictures(void) {
   CHECK(left_out_behind(true, CELSPAN_PICTURE_PAINT, 1) == 0);
 }
 
+/* ---------------------------------------------------------------- columns */
+
+/* What each of two programs shows is examined once in a row, however often pixels of it are asked
+ * for in turn. */
+static void test_examined(void) {
+  enum { ROWS = 3 };
+  const celspan_antialias_mode none = CELSPAN_ANTIALIAS_NONE;
+  const cs_item items[2][2] = {{{0, 0}, {1, 0}}, {{0, 0}, {2, 0}}};
+  celspan_exposure exposure;
+  celspan_object *objects[3];
+  for (int i = 0; i < 3; i++)
+    objects[i] = studio_rect(&s, 0, 0, SIDE, SIDE, make_picture(true, CELSPAN_PICTURE_PAINT));
+  celspan_cel *cel = studio_cel(&s, CELSPAN_CEL_DESC, objects, 3);
+  celspan_frame_desc desc =
+      frame_of(studio_rostrum(&s, CELSPAN_ROSTRUM_DESC, &cel, 1), &exposure, &none);
+  cs_frame frame;
+  cs_painter painter;
+  studio_check(&s, cs_frame_create(s.context, &desc, &frame));
+  studio_check(&s, cs_painter_init(&painter, s.context, &frame.plans[0].stack, NULL));
+  for (int row = 0; row < ROWS; row++)
+    for (int x = 0; x < SIDE; x++) {
+      const cs_program program = {.items = items[x % 2], .length = 2};
+      float rgba[1][4];
+      studio_check(
+          &s, cs_painter_program_colours(&painter, &program, (cs_run){x, x + 1, row + 0.5}, rgba));
+    }
+  CHECK(painter.examined == 2 * ROWS);
+  cs_painter_finish(&painter);
+  cs_frame_free(&frame, s.context->memory);
+  studio_finish(&s);
+}
+
 /* ---------------------------------------------------------------- programs */
 
 /* The length of the program behind a point where all layers of a rostrum are present. */
@@ -348,6 +381,7 @@ int main(void) {
   test_trees();
   test_cull();
   test_pictures();
+  test_examined();
   test_programs();
   celspan_context_destroy(s.context);
   return check_done();

@@ -291,17 +291,17 @@ celspan_status cs_painter_pixels(cs_painter *painter, const cs_program *program,
 
 /* Finds the visible items from run.x0 on: in as many strides of the run as show the same items, or
  * in one stride where this is not known. *end: the column after these strides. */
-static celspan_status find_shown(cs_painter *painter, const cs_program *program, int32_t stride,
-                                 cs_run run, int32_t *end) {
-  int32_t left = run.x0 / stride * stride;
+static celspan_status find_shown(cs_painter *painter, cs_shown_kept *kept, cs_run run,
+                                 int32_t *end) {
+  int32_t stride = kept->stride, left = run.x0 / stride * stride;
   if (run.x1 - left > stride) {
     *end = (run.x1 + stride - 1) / stride * stride;
-    CS_TRY(cs_shown_find(painter, program, cs_run_between(run, left, *end), &painter->shown[0]));
-    if (painter->shown[0].is_sure)
+    CS_TRY(cs_shown_again(painter, kept, cs_run_between(run, left, *end)));
+    if (kept->shown.is_sure)
       return CELSPAN_OK;
   }
   *end = left + stride;
-  return cs_shown_find(painter, program, cs_run_between(run, left, *end), &painter->shown[0]);
+  return cs_shown_again(painter, kept, cs_run_between(run, left, *end));
 }
 
 celspan_status cs_painter_program_colours(cs_painter *painter, const cs_program *program,
@@ -317,12 +317,12 @@ celspan_status cs_painter_program_colours(cs_painter *painter, const cs_program 
   if (!cs_shown_varies(painter->stack, program))
     return batch.count <= CS_FEW_PIXELS ? batch_colours(painter, program, &batch, rgba)
                                         : cs_painter_shown_colours(painter, program, run, rgba);
-  int32_t stride = cs_shown_stride(painter, program);
-  const cs_shown *shown = &painter->shown[0];
+  cs_shown_kept *kept;
+  CS_TRY(cs_shown_keep(painter, program, &kept));
   for (int32_t x = run.x0, end; x < run.x1; rgba += end - x, x = end) {
-    CS_TRY(find_shown(painter, program, stride, cs_run_between(run, x, run.x1), &end));
+    CS_TRY(find_shown(painter, kept, cs_run_between(run, x, run.x1), &end));
     end = end < run.x1 ? end : run.x1;
-    const cs_program visible = {shown->items, program->procedure_spans, shown->length};
+    const cs_program visible = {kept->shown.items, program->procedure_spans, kept->shown.length};
     CS_TRY(cs_painter_shown_colours(painter, &visible, cs_run_between(run, x, end), rgba));
   }
   return CELSPAN_OK;

@@ -24,6 +24,8 @@ celspan_status cs_painter_init(cs_painter *painter, celspan_context *context, co
     cs_block_cache_init(painter->blocks, context);
   CS_TRY(allocate(painter, &painter->copies, stack->image_count > 0 ? CS_PAINTER_COPIES : 0,
                   sizeof(cs_copies_plan)));
+  const bool may_vary = stack->image_count + stack->defocused_count > 0;
+  CS_TRY(allocate(painter, &painter->kept, may_vary ? CS_PAINTER_SHOWN : 0, sizeof(cs_shown_kept)));
   CS_TRY(allocate(painter, &painter->defocused, stack->defocused_count, sizeof(cs_defocused_view)));
   if (stack->shade_count == 0)
     return CELSPAN_OK;
@@ -44,6 +46,20 @@ static void finish_copies(cs_painter *painter) {
   cs_mem_free(memory, painter->copies, CS_PAINTER_COPIES * sizeof *painter->copies);
 }
 
+static void finish_shown(cs_memory *memory, cs_shown *shown) {
+  cs_mem_free(memory, shown->items, shown->capacity * sizeof *shown->items);
+}
+
+static void finish_kept(cs_painter *painter) {
+  cs_memory *memory = painter->context->memory;
+  for (size_t i = 0; painter->kept && i < CS_PAINTER_SHOWN; i++) {
+    cs_shown_kept *kept = &painter->kept[i];
+    cs_mem_free(memory, kept->asked, kept->capacity * sizeof *kept->asked);
+    finish_shown(memory, &kept->shown);
+  }
+  cs_mem_free(memory, painter->kept, CS_PAINTER_SHOWN * sizeof *painter->kept);
+}
+
 void cs_painter_finish(cs_painter *painter) {
   if (!painter->stack)
     return;
@@ -61,8 +77,8 @@ void cs_painter_finish(cs_painter *painter) {
   cs_mem_free(memory, painter->ahead, 2 * sizeof *painter->ahead);
   cs_gradient_tables_destroy(painter->gradients, memory);
   for (int i = 0; i < 2; i++)
-    cs_mem_free(memory, painter->shown[i].items,
-                painter->shown[i].capacity * sizeof *painter->shown[i].items);
+    finish_shown(memory, &painter->shown[i]);
+  finish_kept(painter);
   finish_copies(painter);
   cs_arena_finish(&painter->scratch, memory);
   *painter = (cs_painter){0};

@@ -42,6 +42,16 @@ typedef struct cs_shown {
   bool is_sure;     /* this is known of every part of the columns */
 } cs_shown;
 
+/* What the columns show that a program was asked for last: shown.h. */
+typedef struct cs_shown_kept {
+  cs_item *asked; /* the items of the program */
+  size_t capacity;
+  uint32_t length; /* 0: of none */
+  int32_t stride;
+  cs_run run; /* without columns: none are known */
+  cs_shown shown;
+} cs_shown_kept;
+
 /* Pieces of a run of copied pictures: copies.c. */
 typedef enum cs_copies_kind { CS_COPIES_OTHER, CS_COPIES_ONE, CS_COPIES_OVER } cs_copies_kind;
 
@@ -65,6 +75,8 @@ typedef struct cs_copies_plan {
 
 /* Runs of copied pictures whose pieces are kept. */
 #define CS_PAINTER_COPIES 16
+/* Programs for which it is kept what they show. */
+#define CS_PAINTER_SHOWN 64
 
 /* The paint of a steady shade in the row that was asked for last. */
 typedef struct cs_painter_steady {
@@ -89,6 +101,8 @@ typedef struct cs_painter {
   cs_copies_plan *copies;               /* NULL without pictures: copies.c */
   cs_arena scratch;                     /* the scratch of one run */
   cs_shown shown[2];    /* what the columns show that are painted now, and those right of them */
+  cs_shown_kept *kept;  /* NULL without pictures and defocused cels: shown.h */
+  uint64_t examined;    /* runs of columns that shown.c has examined */
   uint64_t evaluations; /* pixels whose colour has been computed */
 } cs_painter;
 

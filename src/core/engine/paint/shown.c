@@ -116,6 +116,7 @@ celspan_status cs_shown_find(cs_painter *painter, const cs_program *program, cs_
                              cs_shown *out) {
   const cs_stack *stack = painter->stack;
   cs_over over;
+  painter->examined++;
   CS_TRY(CS_RESERVE(painter->context, out->items, out->capacity, program->length));
   out->length = 0;
   out->is_sure = true;
@@ -138,6 +139,39 @@ celspan_status cs_shown_find(cs_painter *painter, const cs_program *program, cs_
     end = cs_over_is_opaque(over.t) ? cs_over_hidden_end(&over) : UINT32_MAX;
   }
   out->ends_opaque = end == 0;
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- kept */
+
+/* Programs are compared by their items, since one may be made where another was. */
+static bool is_of(const cs_shown_kept *kept, const cs_program *program) {
+  return kept->length == program->length &&
+         memcmp(kept->asked, program->items, program->length * sizeof *program->items) == 0;
+}
+
+celspan_status cs_shown_keep(cs_painter *painter, const cs_program *program, cs_shown_kept **out) {
+  const uint32_t first = program->items[0].layer, last = program->items[program->length - 1].layer;
+  cs_shown_kept *kept = &painter->kept[(first + 3 * last + 5 * program->length) % CS_PAINTER_SHOWN];
+  *out = kept;
+  if (is_of(kept, program))
+    return CELSPAN_OK;
+  kept->length = 0;
+  kept->run = (cs_run){0};
+  CS_TRY(CS_RESERVE(painter->context, kept->asked, kept->capacity, program->length));
+  memcpy(kept->asked, program->items, program->length * sizeof *program->items);
+  kept->length = program->length;
+  kept->stride = cs_shown_stride(painter, program);
+  return CELSPAN_OK;
+}
+
+celspan_status cs_shown_again(cs_painter *painter, cs_shown_kept *kept, cs_run run) {
+  if (kept->run.x0 == run.x0 && kept->run.x1 == run.x1 && kept->run.y == run.y)
+    return CELSPAN_OK;
+  const cs_program program = {.items = kept->asked, .length = kept->length};
+  kept->run = (cs_run){0};
+  CS_TRY(cs_shown_find(painter, &program, run, &kept->shown));
+  kept->run = run;
   return CELSPAN_OK;
 }
 

@@ -29,6 +29,13 @@ int32_t cs_shown_stride(cs_painter *painter, const cs_program *program);
  * making the visible defocused cels. */
 CELSPAN_CHECKED celspan_status cs_shown_find(cs_painter *painter, const cs_program *program,
                                              cs_run run, cs_shown *out);
+/* What is kept of a program, until one takes its place that is kept there too: its stride, and what
+ * the columns show for which it was asked last. So it is found once a cell and stride of a row, and
+ * not in each window of it. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_shown_keep(cs_painter *painter, const cs_program *program,
+                                             cs_shown_kept **out);
+/* Fills kept->shown, unless it is of these columns already. Errors: as of cs_shown_find. */
+CELSPAN_CHECKED celspan_status cs_shown_again(cs_painter *painter, cs_shown_kept *kept, cs_run run);
 /* Whether both show the same items. */
 bool cs_shown_same(const cs_shown *a, const cs_shown *b);
 /* Whether a layer is a defocused cel whose nodes are pixels: its rows are known to be clear outside
