@@ -278,8 +278,14 @@ static celspan_status run_stretch(cs_painter *painter, const cs_program *program
 
 static celspan_status run_stretches(cs_painter *painter, const cs_program *program, cs_run run,
                                     cs_row *row) {
+  cs_shown_kept *kept;
+  CS_TRY(cs_shown_keep(painter, program, &kept));
+  int32_t begun = run.x0, stride = kept->stride, left = run.x0 / stride * stride;
+  if (run.x1 - left <= stride) { /* mostly a window of this cell has asked already */
+    CS_TRY(cs_shown_again(painter, kept, cs_run_between(run, left, left + stride)));
+    return run_stretch(painter, program, &kept->shown, run, row);
+  }
   cs_shown *current = &painter->shown[0], *next = &painter->shown[1];
-  int32_t begun = run.x0, stride = cs_shown_stride(painter, program);
   int64_t end;
   CS_TRY(next_shown(painter, program, stride, run, current, &end));
   while (end < run.x1) {
