@@ -3,6 +3,7 @@
  */
 #include "engine/compose/tree.h"
 #include "engine/paint/colours.h"
+#include "engine/paint/run.h"
 #include "engine/paint/shade.h"
 #include "frames/render/through.h"
 #include "model/geometry/matrix.h"
@@ -300,8 +301,8 @@ static void test_pictures(void) {
 
 /* ---------------------------------------------------------------- columns */
 
-/* What each of two programs shows is examined once in a row, however often pixels of it are asked
- * for in turn. */
+/* What each of two programs shows is examined once in a row, however often pixels and runs of it
+ * are asked for in turn. */
 static void test_examined(void) {
   enum { ROWS = 3 };
   const celspan_antialias_mode none = CELSPAN_ANTIALIAS_NONE;
@@ -315,16 +316,22 @@ static void test_examined(void) {
       frame_of(studio_rostrum(&s, CELSPAN_ROSTRUM_DESC, &cel, 1), &exposure, &none);
   cs_frame frame;
   cs_painter painter;
+  cs_row out;
+  cs_row_init(&out);
   studio_check(&s, cs_frame_create(s.context, &desc, &frame));
   studio_check(&s, cs_painter_init(&painter, s.context, &frame.plans[0].stack, NULL));
-  for (int row = 0; row < ROWS; row++)
-    for (int x = 0; x < SIDE; x++) {
-      const cs_program program = {.items = items[x % 2], .length = 2};
+  for (int row = 0; row < ROWS; row++) {
+    cs_row_clear(&out);
+    for (int x = 0; x < SIDE; x += 4) {
+      const cs_program program = {.items = items[x / 4 % 2], .length = 2};
       float rgba[1][4];
-      studio_check(
-          &s, cs_painter_program_colours(&painter, &program, (cs_run){x, x + 1, row + 0.5}, rgba));
+      const cs_run pixel = {x, x + 1, row + 0.5}, run = {x + 1, x + 4, row + 0.5};
+      studio_check(&s, cs_painter_program_colours(&painter, &program, pixel, rgba));
+      studio_check(&s, cs_painter_run_program(&painter, &program, run, &out));
     }
+  }
   CHECK(painter.examined == 2 * ROWS);
+  cs_row_finish(&out, s.context->memory);
   cs_painter_finish(&painter);
   cs_frame_free(&frame, s.context->memory);
   studio_finish(&s);
