@@ -457,7 +457,7 @@ celspan_status cs_events_find(celspan_context *context, const cs_boundary_set *s
       cs_courses_make(context, set, rows.height, top, last, cull->deferred_count, &out->courses));
   CS_TRY(cs_bundles_make(context, cull, &out->courses, &out->bundles));
   CS_TRY(cs_windings_init(context, &out->windings));
-  CS_TRY(CS_RESERVE(context, out->parts, out->part_capacity, 2 * out->courses.course_count));
+  CS_TRY(CS_RESERVE(context, out->parts, out->part_capacity, 4 * out->courses.course_count));
   celspan_status status = list_ends(&s);
   if (status == CELSPAN_OK)
     status = cs_order_init(context, &out->courses, &s.order);

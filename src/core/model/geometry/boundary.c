@@ -24,7 +24,7 @@ celspan_status cs_boundary_expect(celspan_context *context, cs_boundary_set *set
   size_t curves = points > pieces ? points - pieces : 0;
   if (pieces == 0)
     return CELSPAN_OK;
-  CS_TRY(CS_RESERVE(context, set->points, set->point_capacity, set->point_count + 3 * curves / 2));
+  CS_TRY(CS_RESERVE(context, set->points, set->point_capacity, set->point_count + 5 * curves / 2));
   CS_TRY(CS_RESERVE(context, set->pieces, set->piece_capacity, set->piece_count + pieces));
   return CS_RESERVE(context, set->chains, set->chain_capacity, set->chain_count + 2 * pieces / 5);
 }
