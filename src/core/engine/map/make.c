@@ -126,71 +126,118 @@ static celspan_status add_clear(maker *m) {
 
 /* ---------------------------------------------------------------- borders */
 
-static void add_point(cs_map_lines *lines, int32_t x, int32_t y) {
-  lines->points[lines->point_count++] = (cs_map_point){x, y};
-}
-
 static int32_t unit_at(const cs_course_point *from, int32_t y) {
   return (int32_t)floor(cs_course_x(from, y) + 0.5);
 }
 
-/* Adds the part of a course between two heights as a border, for which there is room. from: a point
- * of its course above both heights. */
-static void add_border(maker *m, const cs_events_part *part, int32_t top, int32_t foot,
-                       const cs_course_point **from) {
-  cs_map_lines *lines = &m->map->lines;
-  const cs_course_point *p = *from;
-  size_t first = lines->point_count;
-  while (p[1].y <= top)
-    p++;
-  add_point(lines, unit_at(p, top), top);
-  for (; p[1].y < foot; p++)
-    add_point(lines, p[1].x, p[1].y);
-  add_point(lines, unit_at(p, foot), foot);
-  *from = p;
-  lines->borders[lines->border_count++] =
-      cs_map_lines_border(lines, first, part->left, part->right);
+/* Borders that have no points of their own yet, chain by chain: `first` is, among the points of all
+ * courses, where the segment at the top begins. */
+typedef struct drafts {
+  cs_map_border *borders;
+  cs_map_point *tops;
+  size_t count, capacity, point_count;
+} drafts;
+
+static inline void extend(cs_map_border *border, int32_t x) {
+  border->low = x < border->low ? x : border->low;
+  border->high = x > border->high ? x : border->high;
 }
 
-/* Adds a part as borders, one in each zone. */
-static void add_part(maker *m, const cs_events_part *part) {
+/* Measures the part of a course between two heights as a border, for which there is room. from: a
+ * point of its course above both heights. */
+static void measure_border(const maker *m, const cs_events_part *part, cs_map_point top,
+                           int32_t foot, const cs_course_point **from, drafts *out) {
+  const cs_course_point *points = m->events.courses.points, *p = *from;
+  while (p[1].y <= top.y)
+    p++;
+  top.x = unit_at(p, top.y);
+  cs_map_border border = {.left = part->left,
+                          .right = part->right,
+                          .first = (uint32_t)(p - points),
+                          .low = top.x,
+                          .high = top.x,
+                          .foot = foot};
+  for (; p[1].y < foot; p++)
+    extend(&border, p[1].x);
+  extend(&border, unit_at(p, foot));
+  border.count = (uint32_t)(p - points) - border.first + 2;
+  *from = p;
+  out->tops[out->count] = top;
+  out->borders[out->count++] = border;
+  out->point_count += border.count;
+}
+
+/* Measures a part as borders, one in each zone. */
+static void measure_part(const maker *m, const cs_events_part *part, drafts *out) {
   const int32_t zone = m->map->zone * CS_MAP_UNIT;
   const cs_courses *courses = &m->events.courses;
   const cs_course_point *from = courses->points + courses->courses[part->course].first;
   for (int32_t top = part->top, foot; top < part->foot; top = foot) {
     int32_t below = top - top % zone + zone;
     foot = part->foot < below ? part->foot : below;
-    add_border(m, part, top, foot, &from);
+    measure_border(m, part, (cs_map_point){0, top}, foot, &from, out);
   }
 }
 
-/* Makes room for the borders of parts. A border contains each point of its course at most once. */
-static celspan_status reserve_borders(maker *m) {
+/* Measures the parts, chain by chain: the order must not depend on the zones that were swept. */
+static celspan_status measure_parts(const maker *m, drafts *out) {
   const cs_events *events = &m->events;
-  cs_map_lines *lines = &m->map->lines;
   const int32_t zone = m->map->zone * CS_MAP_UNIT;
-  size_t borders = 0, points = events->courses.point_count;
-  for (size_t i = 0; i < events->part_count; i++)
-    borders += (size_t)((events->parts[i].foot - 1) / zone - events->parts[i].top / zone + 1);
-  points += 2 * borders;
-  CS_TRY(CS_RESERVE(m->context, lines->borders, lines->border_capacity,
-                    lines->border_count + borders));
-  return CS_RESERVE(m->context, lines->points, lines->point_capacity, lines->point_count + points);
-}
-
-/* Adds the parts, chain by chain: the order must not depend on the zones that were swept. */
-static celspan_status add_borders(maker *m) {
-  const cs_events *events = &m->events;
   size_t count = events->part_count;
   uint64_t *keys;
-  CS_TRY(reserve_borders(m));
+  for (size_t i = 0; i < count; i++)
+    out->capacity += (size_t)((events->parts[i].foot - 1) / zone - events->parts[i].top / zone + 1);
+  CS_TRY(CS_MAKE(m->context, out->borders, out->capacity + 1));
+  CS_TRY(CS_MAKE(m->context, out->tops, out->capacity + 1));
   CS_TRY(CS_MAKE(m->context, keys, count + 1));
   for (size_t i = 0; i < count; i++)
     keys[i] = cs_key((int32_t)events->parts[i].course, i);
   celspan_status status = cs_keys_sort(m->context, keys, count);
   for (size_t i = 0; i < count && status == CELSPAN_OK; i++)
-    add_part(m, &events->parts[cs_key_number(keys[i])]);
+    measure_part(m, &events->parts[cs_key_number(keys[i])], out);
   cs_mem_free(m->context->memory, keys, (count + 1) * sizeof *keys);
+  return status;
+}
+
+/* Adds a border with its points, for which there is room. */
+static void add_border(maker *m, cs_map_border border, cs_map_point top) {
+  cs_map_lines *lines = &m->map->lines;
+  const cs_course_point *from = m->events.courses.points + border.first;
+  cs_map_point *points = lines->points + lines->point_count;
+  const uint32_t last = border.count - 1;
+  points[0] = top;
+  for (uint32_t k = 1; k < last; k++)
+    points[k] = (cs_map_point){from[k].x, from[k].y};
+  points[last] = (cs_map_point){unit_at(from + last - 1, border.foot), border.foot};
+  border.first = (uint32_t)lines->point_count;
+  lines->point_count += border.count;
+  lines->borders[lines->border_count++] = border;
+}
+
+/* Adds the borders in the order in which rows need them. keys: room for one each. */
+static celspan_status add_in_order(maker *m, const drafts *all, uint64_t *keys) {
+  cs_map_lines *lines = &m->map->lines;
+  CS_TRY(cs_map_lines_order(m->context, all->tops, all->count, keys));
+  CS_TRY(cs_map_lines_make(m->context, all->count, all->point_count, lines));
+  for (size_t i = 0; i < all->count; i++) {
+    const uint32_t number = cs_key_number(keys[i]);
+    add_border(m, all->borders[number], all->tops[number]);
+  }
+  return CELSPAN_OK;
+}
+
+static celspan_status add_borders(maker *m) {
+  cs_memory *memory = m->context->memory;
+  drafts all = {0};
+  uint64_t *keys = NULL;
+  celspan_status status = measure_parts(m, &all);
+  if (status == CELSPAN_OK)
+    status = CS_MAKE(m->context, keys, all.count + 1);
+  if (status == CELSPAN_OK && all.count > 0)
+    status = add_in_order(m, &all, keys);
+  cs_mem_free(memory, keys, (all.count + 1) * sizeof *keys);
+  cs_mem_free(memory, all.tops, (all.capacity + 1) * sizeof *all.tops);
+  cs_mem_free(memory, all.borders, (all.capacity + 1) * sizeof *all.borders);
   return status;
 }
 
@@ -219,8 +266,6 @@ celspan_status cs_map_make(celspan_context *context, cs_plan *plan, int32_t firs
   map->is_coloured = is_coloured(&plan->stack);
   map->is_whole = true;
   celspan_status status = make_zones(&m, first, end);
-  if (status == CELSPAN_OK)
-    status = cs_map_lines_sort(context, &map->lines);
   if (status == CELSPAN_OK && map->item_count > 0)
     take_stack(map, &plan->stack);
   finish(&m);

@@ -98,6 +98,14 @@ void cs_map_lines_finish(cs_map_lines *lines, cs_memory *memory);
  * list. */
 cs_map_border cs_map_lines_border(const cs_map_lines *lines, size_t first, uint32_t left,
                                   uint32_t right);
+/* Finds the order of borders by their first points, in the numbers of the keys, one for each.
+ * Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_map_lines_order(celspan_context *context,
+                                                  const cs_map_point *tops, size_t count,
+                                                  uint64_t *keys);
+/* Makes room for given numbers of borders and points, above 0, and no more. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_map_lines_make(celspan_context *context, size_t borders,
+                                                 size_t points, cs_map_lines *out);
 /* Brings the borders into their order: by the y of their first points, then by x; borders that
  * begin at one point keep their order. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_map_lines_sort(celspan_context *context, cs_map_lines *lines);

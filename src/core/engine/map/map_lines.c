@@ -25,31 +25,35 @@ cs_map_border cs_map_lines_border(const cs_map_lines *lines, size_t first, uint3
   return border;
 }
 
-/* Sorts the numbers of the borders. */
-static celspan_status sort_keys(celspan_context *context, const cs_map_lines *lines,
-                                uint64_t *keys) {
-  size_t count = lines->border_count;
+celspan_status cs_map_lines_order(celspan_context *context, const cs_map_point *tops, size_t count,
+                                  uint64_t *keys) {
   for (size_t i = 0; i < count; i++)
-    keys[i] = cs_key(lines->points[lines->borders[i].first].x, i);
+    keys[i] = cs_key(tops[i].x, i);
   CS_TRY(cs_keys_sort(context, keys, count));
   for (size_t i = 0; i < count; i++) {
-    uint32_t border = cs_key_number(keys[i]);
-    keys[i] = cs_key(lines->points[lines->borders[border].first].y, border);
+    uint32_t number = cs_key_number(keys[i]);
+    keys[i] = cs_key(tops[number].y, number);
   }
   return cs_keys_sort(context, keys, count);
 }
 
-/* Copies the borders in the order of the keys, each with its points, into arrays without room for
- * more: rows read them from the first one to the last. */
-static celspan_status copy(celspan_context *context, const cs_map_lines *from, const uint64_t *keys,
-                           cs_map_lines *out) {
+celspan_status cs_map_lines_make(celspan_context *context, size_t borders, size_t points,
+                                 cs_map_lines *out) {
   cs_memory *memory = context->memory;
-  out->border_capacity = from->border_count;
-  out->point_capacity = from->point_count;
-  out->borders = cs_mem_resize(memory, NULL, 0, out->border_capacity * sizeof *out->borders);
-  out->points = cs_mem_resize(memory, NULL, 0, out->point_capacity * sizeof *out->points);
-  if (!out->borders || !out->points)
-    return cs_fail_memory(context);
+  out->border_capacity = borders;
+  out->point_capacity = points;
+  out->borders = cs_mem_resize(memory, NULL, 0, borders * sizeof *out->borders);
+  out->points = cs_mem_resize(memory, NULL, 0, points * sizeof *out->points);
+  return out->borders && out->points ? CELSPAN_OK : cs_fail_memory(context);
+}
+
+/* Copies the borders in their order, each with its points. keys: room for one each. */
+static celspan_status copy(celspan_context *context, const cs_map_lines *from, cs_map_point *tops,
+                           uint64_t *keys, cs_map_lines *out) {
+  for (size_t i = 0; i < from->border_count; i++)
+    tops[i] = from->points[from->borders[i].first];
+  CS_TRY(cs_map_lines_order(context, tops, from->border_count, keys));
+  CS_TRY(cs_map_lines_make(context, from->border_count, from->point_count, out));
   for (; out->border_count < from->border_count; out->border_count++) {
     cs_map_border *border = &out->borders[out->border_count];
     *border = from->borders[cs_key_number(keys[out->border_count])];
@@ -64,13 +68,15 @@ static celspan_status copy(celspan_context *context, const cs_map_lines *from, c
 celspan_status cs_map_lines_sort(celspan_context *context, cs_map_lines *lines) {
   size_t count = lines->border_count;
   cs_map_lines sorted = {0};
+  cs_map_point *tops = NULL;
   uint64_t *keys;
   if (count == 0)
     return CELSPAN_OK;
   CS_TRY(CS_MAKE(context, keys, count));
-  celspan_status status = sort_keys(context, lines, keys);
+  celspan_status status = CS_MAKE(context, tops, count);
   if (status == CELSPAN_OK)
-    status = copy(context, lines, keys, &sorted);
+    status = copy(context, lines, tops, keys, &sorted);
+  cs_mem_free(context->memory, tops, count * sizeof *tops);
   cs_mem_free(context->memory, keys, count * sizeof *keys);
   cs_map_lines_finish(status == CELSPAN_OK ? lines : &sorted, context->memory);
   if (status == CELSPAN_OK)
