@@ -1,4 +1,4 @@
-/* Adding the borders of a swath to its pixels: loops for every set of instructions.
+/* The borders of a swath, found and added to its pixels: loops for every set of instructions.
  *
  *      border, from row to row            a row, from column to column
  *      +---------\-----------+            +-----------+-----------+-----------+
@@ -17,17 +17,7 @@
 
 #include "engine/map/swath.h"
 
-/* From points to places: (origin + point) * scale + shift. Each array has x first, then y. */
-typedef struct cs_map_placing {
-  double origin[4], scale[4], shift[4];
-} cs_map_placing;
-
-/* Puts points into their places; `out` must have room for one more than there are. */
-CS_WIDE_DECLARE(void, cs_map_put_places,
-                (const cs_map_placing *placing, const cs_map_point *points, size_t count,
-                 cs_map_point *out));
-
-/* The swath whose sums are made; the lives of its drawing have been found. */
+/* The swath whose sums are made. */
 typedef struct cs_map_adding {
   celspan_context *context;
   cs_map_sums *sums;
@@ -36,5 +26,13 @@ typedef struct cs_map_adding {
   celspan_status *status; /* set to NO_MEMORY if there is no memory for parts */
 } cs_map_adding;
 
+/* Finds the borders that cross the swath, with their places. Errors: NO_MEMORY. */
+CS_WIDE_DECLARE(CELSPAN_CHECKED celspan_status, cs_map_find_lives, (const cs_map_adding *adding));
 /* Adds the parts of the lives in the swath, and finds where each begins in the swath below. */
 CS_WIDE_DECLARE(void, cs_map_add, (const cs_map_adding *adding));
+
+/* The difference of the cells' colours from the left to the right of a border. */
+static inline void cs_map_find_step(const cs_v4 *colours, const cs_map_border *f,
+                                    cs_map_live *live) {
+  cs_v4_store(live->step, (colours[f->right] - colours[f->left]) * (1.0f / CS_MAP_HEIGHT));
+}

@@ -28,27 +28,184 @@ static inline doubles bounded(doubles v) {
 #endif
 }
 
+/* From points to places: (origin + point) * scale + shift. Each array has x first, then y. */
+typedef struct placing {
+  double origin[4], scale[4], shift[4];
+} placing;
+
+static placing placing_of(const cs_map_drawing *d) {
+  placing p;
+  for (int lane = 0; lane < 4; lane++) {
+    bool is_x = lane % 2 == 0;
+    p.origin[lane] = (double)(is_x ? d->left : d->top) * CS_MAP_UNIT;
+    p.scale[lane] = (is_x ? d->scale_x : d->scale_y) * CS_MAP_UNIT;
+    p.shift[lane] = (is_x ? d->shift_x : d->shift_y) * CS_MAP_UNIT + 0.5;
+  }
+  return p;
+}
+
 /* Rounded, except that numbers below 0 may be too great by one: they lie beyond the frame. */
-static inline integers place_two(const cs_map_placing *p, integers points) {
+static inline integers place_two(const placing *p, integers points) {
   doubles whole = load_doubles(p->origin) + __builtin_convertvector(points, doubles);
   return __builtin_convertvector(bounded(whole * load_doubles(p->scale) + load_doubles(p->shift)),
                                  integers);
 }
 
-void CS_WIDE(cs_map_put_places)(const cs_map_placing *placing, const cs_map_point *points,
-                                size_t count, cs_map_point *out) {
-  const cs_map_placing p = *placing;
+/* Puts points into their places; `out` must have room for one more than there are. */
+static inline void put_places(const placing *p, const cs_map_point *points, size_t count,
+                              cs_map_point *out) {
   integers two = {0};
   for (; count > 1; count -= 2, points += 2, out += 2) {
     memcpy(&two, points, sizeof two);
-    two = place_two(&p, two);
+    two = place_two(p, two);
     memcpy(out, &two, sizeof two);
   }
   if (count > 0) {
     memcpy(&two, points, sizeof *points);
-    two = place_two(&p, two);
+    two = place_two(p, two);
     memcpy(out, &two, sizeof two);
   }
+}
+
+/* ---------------------------------------------------------------- which borders */
+
+/* Where the lives of a swath are searched for. */
+typedef struct swath {
+  celspan_context *context;
+  cs_map_rows *rows;
+  const cs_map_drawing *drawing;
+  placing placing;
+  int32_t row, width, top, foot; /* width: of the frame; top, foot: in places */
+} swath;
+
+/* The first line of a live border, from a place on, that is in the swath. */
+static uint32_t find_place(const swath *s, const cs_map_live *live, uint32_t from) {
+  const cs_map_point *places = s->rows->places;
+  uint32_t low = from, high = live->end;
+  while (high - low > 1) {
+    uint32_t middle = low + (high - low) / 2;
+    if (places[middle].y <= s->top)
+      low = middle;
+    else
+      high = middle;
+  }
+  return low;
+}
+
+/* Moves the places of the live borders to the front of their array. */
+static void pack_places(cs_map_rows *rows) {
+  uint32_t count = 0;
+  for (size_t i = 0; i < rows->live_count; i++) {
+    cs_map_live *live = &rows->lives[i];
+    uint32_t kept = live->end - live->at;
+    memmove(rows->places + count, rows->places + live->at, kept * sizeof *rows->places);
+    live->at = count;
+    count += kept;
+    live->end = count;
+  }
+  rows->place_count = count;
+}
+
+/* Removes the borders that end above the swath. */
+static void drop_lives(const swath *s) {
+  cs_map_rows *rows = s->rows;
+  size_t kept = 0, places = 0;
+  for (size_t i = 0; i < rows->live_count; i++) {
+    const cs_map_live *live = &rows->lives[i];
+    if (live->foot > s->top) {
+      places += live->end - live->at;
+      rows->lives[kept++] = *live;
+    }
+  }
+  rows->live_count = kept;
+  if (rows->place_count > 2 * places)
+    pack_places(rows);
+}
+
+/* The difference of the keys from the left to the right of a border; also whether a cell on one of
+ * its sides varies. */
+static void find_change(const cs_map_drawing *drawing, const cs_map_border *f, cs_map_live *live) {
+  const cs_map_cell *left = &drawing->map->cells[f->left], *right = &drawing->map->cells[f->right];
+  live->varies = left->length > 0 || right->length > 0;
+  live->key = right->key - left->key;
+}
+
+/* The places of a border are appended to the others. box: its lowest and its highest place. If a
+ * border is left of the frame, only its heights count. */
+static inline celspan_status add_live(const swath *s, uint32_t number, const cs_map_point *box) {
+  cs_map_rows *rows = s->rows;
+  const cs_map_lines *lines = s->drawing->lines;
+  const cs_map_border *f = &lines->borders[number];
+  const bool is_outside = box[1].x < 0;
+  const cs_map_point *points = lines->points + f->first;
+  uint32_t first = (uint32_t)rows->place_count, count = is_outside ? 2 : f->count;
+  CS_TRY(CS_RESERVE(s->context, rows->places, rows->place_capacity, first + count + 1));
+  CS_TRY(CS_RESERVE(s->context, rows->lives, rows->live_capacity, rows->live_count + 1));
+  cs_map_live *live = &rows->lives[rows->live_count++];
+  *live = (cs_map_live){.border = number,
+                        .at = first,
+                        .end = first + count,
+                        .low = box[0].x,
+                        .high = box[1].x,
+                        .foot = box[1].y};
+  find_change(s->drawing, f, live);
+  cs_map_find_step(s->drawing->colours, f, live);
+  if (is_outside)
+    memcpy(rows->places + first, box, 2 * sizeof *box);
+  else
+    put_places(&s->placing, points, count, rows->places + first);
+  if (rows->places[first].y < s->top)
+    live->at = find_place(s, live, first);
+  rows->place_count = live->end;
+  return CELSPAN_OK;
+}
+
+/* Adds the borders that begin above the foot of the swath. */
+static celspan_status add_lives(const swath *s) {
+  cs_map_rows *rows = s->rows;
+  const cs_map_lines *lines = s->drawing->lines;
+  for (; rows->next < lines->border_count; rows->next++) {
+    const cs_map_border *f = &lines->borders[rows->next];
+    const cs_map_point ends[2] = {{f->low, lines->points[f->first].y}, {f->high, f->foot}};
+    cs_map_point box[3];
+    put_places(&s->placing, ends, 2, box);
+    if (box[0].y >= s->foot)
+      return CELSPAN_OK;
+    if (box[1].y > s->top && box[0].x / CS_MAP_UNIT < s->width)
+      CS_TRY(add_live(s, rows->next, box));
+  }
+  return CELSPAN_OK;
+}
+
+/* Goes back to the first border, or keeps the borders that cross the swath above. */
+static void go_to(const swath *s) {
+  cs_map_rows *rows = s->rows;
+  if (rows->row < 0 || s->row < rows->row)
+    rows->next = 0;
+  if (rows->next == 0)
+    rows->live_count = 0;
+  bool is_next = s->row == rows->row + CS_MAP_ROWS;
+  for (size_t i = 0; i < rows->live_count; i++) {
+    cs_map_live *live = &rows->lives[i];
+    live->at = is_next ? live->next : find_place(s, live, live->at);
+  }
+  rows->row = -1;
+}
+
+celspan_status CS_WIDE(cs_map_find_lives)(const cs_map_adding *adding) {
+  cs_map_rows *rows = adding->rows;
+  const int32_t top = adding->row * CS_MAP_UNIT;
+  const swath s = {.context = adding->context,
+                   .rows = rows,
+                   .drawing = rows->drawing,
+                   .placing = placing_of(rows->drawing),
+                   .row = adding->row,
+                   .width = adding->sums->width,
+                   .top = top,
+                   .foot = top + CS_MAP_ROWS * CS_MAP_UNIT};
+  go_to(&s);
+  drop_lives(&s);
+  return add_lives(&s);
 }
 
 /* ---------------------------------------------------------------- a pixel */

@@ -56,208 +56,58 @@ static void clear_unread(cs_map_sums *sums) {
     CS_WIDE_CHOOSE(sums->isa, cs_map_clear_row)(sums, (size_t)__builtin_ctz(sums->unread));
 }
 
-/* ---------------------------------------------------------------- which borders */
-
-/* The swath that is being made. */
-typedef struct swath {
-  celspan_context *context;
-  cs_map_sums *sums;
-  cs_map_rows *rows;
-  const cs_map_drawing *drawing;
-  cs_map_placing placing;
-  int32_t row, top, foot; /* top, foot: in places */
-} swath;
-
-static swath begin_swath(celspan_context *context, cs_map_sums *sums, cs_map_rows *rows,
-                         int32_t row) {
-  const cs_map_drawing *d = rows->drawing;
-  swath s = {.context = context, .sums = sums, .rows = rows, .drawing = d, .row = row};
-  s.top = row * CS_MAP_UNIT;
-  s.foot = s.top + CS_MAP_ROWS * CS_MAP_UNIT;
-  for (int lane = 0; lane < 4; lane++) {
-    bool is_x = lane % 2 == 0;
-    s.placing.origin[lane] = (double)(is_x ? d->left : d->top) * CS_MAP_UNIT;
-    s.placing.scale[lane] = (is_x ? d->scale_x : d->scale_y) * CS_MAP_UNIT;
-    s.placing.shift[lane] = (is_x ? d->shift_x : d->shift_y) * CS_MAP_UNIT + 0.5;
-  }
-  return s;
-}
-
-/* There is room for one point more. */
-static void put_places(const swath *s, const cs_map_point *points, size_t count,
-                       cs_map_point *out) {
-  CS_WIDE_CHOOSE(s->sums->isa, cs_map_put_places)(&s->placing, points, count, out);
-}
-
-/* The first line of a live border, from a place on, that is in the swath. */
-static uint32_t find_place(const swath *s, const cs_map_live *live, uint32_t from) {
-  const cs_map_point *places = s->rows->places;
-  uint32_t low = from, high = live->end;
-  while (high - low > 1) {
-    uint32_t middle = low + (high - low) / 2;
-    if (places[middle].y <= s->top)
-      low = middle;
-    else
-      high = middle;
-  }
-  return low;
-}
-
-/* Moves the places of the live borders to the front of their array. */
-static void pack_places(cs_map_rows *rows) {
-  uint32_t count = 0;
-  for (size_t i = 0; i < rows->live_count; i++) {
-    cs_map_live *live = &rows->lives[i];
-    uint32_t kept = live->end - live->at;
-    memmove(rows->places + count, rows->places + live->at, kept * sizeof *rows->places);
-    live->at = count;
-    count += kept;
-    live->end = count;
-  }
-  rows->place_count = count;
-}
-
-/* Removes the borders that end above the swath. */
-static void drop_lives(const swath *s) {
-  cs_map_rows *rows = s->rows;
-  size_t kept = 0, places = 0;
-  for (size_t i = 0; i < rows->live_count; i++) {
-    const cs_map_live *live = &rows->lives[i];
-    if (live->foot > s->top) {
-      places += live->end - live->at;
-      rows->lives[kept++] = *live;
-    }
-  }
-  rows->live_count = kept;
-  if (rows->place_count > 2 * places)
-    pack_places(rows);
-}
-
-/* The difference of the cells' colours from the left to the right of a border. */
-static void find_step(const cs_v4 *colours, const cs_map_border *f, cs_map_live *live) {
-  cs_v4_store(live->step, (colours[f->right] - colours[f->left]) * (1.0f / CS_MAP_HEIGHT));
-}
-
-/* The same for keys; also whether a cell on one side of the border varies. */
-static void find_change(const cs_map_drawing *drawing, const cs_map_border *f, cs_map_live *live) {
-  const cs_map_cell *left = &drawing->map->cells[f->left], *right = &drawing->map->cells[f->right];
-  live->varies = left->length > 0 || right->length > 0;
-  live->key = right->key - left->key;
-}
-
-/* The places of a border are appended to the others. box: its lowest and its highest place. If a
- * border is left of the frame, only its heights count. */
-static celspan_status add_live(const swath *s, uint32_t number, const cs_map_point *box) {
-  cs_map_rows *rows = s->rows;
-  const cs_map_lines *lines = s->drawing->lines;
-  const cs_map_border *f = &lines->borders[number];
-  const bool is_outside = box[1].x < 0;
-  const cs_map_point *points = lines->points + f->first;
-  uint32_t first = (uint32_t)rows->place_count, count = is_outside ? 2 : f->count;
-  cs_map_live live = {.border = number,
-                      .at = first,
-                      .end = first + count,
-                      .low = box[0].x,
-                      .high = box[1].x,
-                      .foot = box[1].y};
-  find_change(s->drawing, f, &live);
-  find_step(s->drawing->colours, f, &live);
-  CS_TRY(CS_RESERVE(s->context, rows->places, rows->place_capacity, first + count + 1));
-  if (is_outside)
-    memcpy(rows->places + first, box, 2 * sizeof *box);
-  else
-    put_places(s, points, count, rows->places + first);
-  if (rows->places[first].y < s->top)
-    live.at = find_place(s, &live, first);
-  rows->place_count = live.end;
-  return CS_APPEND(s->context, rows->lives, rows->live_count, rows->live_capacity, live);
-}
-
-/* Adds the borders that begin above the foot of the swath. */
-static celspan_status add_lives(const swath *s) {
-  cs_map_rows *rows = s->rows;
-  const cs_map_lines *lines = s->drawing->lines;
-  for (; rows->next < lines->border_count; rows->next++) {
-    const cs_map_border *f = &lines->borders[rows->next];
-    const cs_map_point ends[2] = {{f->low, lines->points[f->first].y}, {f->high, f->foot}};
-    cs_map_point box[3];
-    put_places(s, ends, 2, box);
-    if (box[0].y >= s->foot)
-      return CELSPAN_OK;
-    if (box[1].y > s->top && box[0].x / CS_MAP_UNIT < s->sums->width)
-      CS_TRY(add_live(s, rows->next, box));
-  }
-  return CELSPAN_OK;
-}
-
-/* Goes back to the first border, or keeps the borders that cross the swath above. */
-static void go_to(const swath *s) {
-  cs_map_rows *rows = s->rows;
-  if (rows->row < 0 || s->row < rows->row)
-    rows->next = 0;
-  if (rows->next == 0)
-    rows->live_count = 0;
-  bool is_next = s->row == rows->row + CS_MAP_ROWS;
-  for (size_t i = 0; i < rows->live_count; i++) {
-    cs_map_live *live = &rows->lives[i];
-    live->at = is_next ? live->next : find_place(s, live, live->at);
-  }
-  rows->row = -1;
-}
-
 /* ---------------------------------------------------------------- a swath */
 
 /* Finds the borders that cross the swath. */
-static celspan_status find_lives(const swath *s) {
-  clear_unread(s->sums);
-  go_to(s);
-  drop_lives(s);
-  CS_TRY(add_lives(s));
-  s->sums->part_count = 0;
-  s->rows->width = s->sums->width;
-  s->rows->has_near = false;
+static celspan_status find_lives(const cs_map_adding *a) {
+  clear_unread(a->sums);
+  CS_TRY(CS_WIDE_CHOOSE(a->sums->isa, cs_map_find_lives)(a));
+  a->sums->part_count = 0;
+  a->rows->width = a->sums->width;
+  a->rows->has_near = false;
   return CELSPAN_OK;
 }
 
-static celspan_status add_all(const swath *s) {
+static celspan_status add_all(const cs_map_adding *a) {
   celspan_status status = CELSPAN_OK;
-  const cs_map_adding adding = {s->context, s->sums, s->rows, s->row, &status};
-  CS_WIDE_CHOOSE(s->sums->isa, cs_map_add)(&adding);
+  cs_map_adding adding = *a;
+  adding.status = &status;
+  CS_WIDE_CHOOSE(a->sums->isa, cs_map_add)(&adding);
   return status;
 }
 
-static celspan_status make_rows(const swath *s, const cs_v4 *colours) {
-  CS_TRY(add_all(s));
-  return CS_WIDE_CHOOSE(s->sums->isa, cs_map_read)(s->context, s->sums, colours, s->rows);
+static celspan_status make_rows(const cs_map_adding *a, const cs_v4 *colours) {
+  CS_TRY(add_all(a));
+  return CS_WIDE_CHOOSE(a->sums->isa, cs_map_read)(a->context, a->sums, colours, a->rows);
 }
 
-static void find_steps(const swath *s, const cs_v4 *colours) {
-  for (size_t i = 0; i < s->rows->live_count; i++) {
-    cs_map_live *live = &s->rows->lives[i];
-    find_step(colours, &s->drawing->lines->borders[live->border], live);
+static void find_steps(const cs_map_rows *rows, const cs_v4 *colours) {
+  for (size_t i = 0; i < rows->live_count; i++) {
+    cs_map_live *live = &rows->lives[i];
+    cs_map_find_step(colours, &rows->drawing->lines->borders[live->border], live);
   }
 }
 
 /* The transmission of the spans. Its spans are made like the spans of colours, and end at the same
  * columns, because keys alone decide where a span ends. */
-static celspan_status make_through(const swath *s) {
-  cs_map_rows *rows = s->rows;
-  find_steps(s, s->drawing->through);
-  CS_TRY(make_rows(s, s->drawing->through));
-  CS_TRY(CS_RESERVE(s->context, rows->through, rows->through_capacity, rows->span_count));
+static celspan_status make_through(const cs_map_adding *a) {
+  cs_map_rows *rows = a->rows;
+  find_steps(rows, rows->drawing->through);
+  CS_TRY(make_rows(a, rows->drawing->through));
+  CS_TRY(CS_RESERVE(a->context, rows->through, rows->through_capacity, rows->span_count));
   for (size_t i = 0; i < rows->span_count; i++)
     rows->through[i] = rows->spans[i].colour;
-  find_steps(s, s->drawing->colours);
+  find_steps(rows, rows->drawing->colours);
   return CELSPAN_OK;
 }
 
 celspan_status cs_map_rows_make(celspan_context *context, cs_map_sums *sums, cs_map_rows *rows,
                                 int32_t row) {
-  const swath s = begin_swath(context, sums, rows, row);
-  CS_TRY(find_lives(&s));
-  celspan_status status = s.drawing->through ? make_through(&s) : CELSPAN_OK;
+  const cs_map_adding a = {.context = context, .sums = sums, .rows = rows, .row = row};
+  CS_TRY(find_lives(&a));
+  celspan_status status = rows->drawing->through ? make_through(&a) : CELSPAN_OK;
   if (status == CELSPAN_OK)
-    status = make_rows(&s, s.drawing->colours);
+    status = make_rows(&a, rows->drawing->colours);
   if (status == CELSPAN_OK)
     rows->row = row;
   else
@@ -267,9 +117,9 @@ celspan_status cs_map_rows_make(celspan_context *context, cs_map_sums *sums, cs_
 
 celspan_status cs_map_rows_sum(celspan_context *context, cs_map_sums *sums, cs_map_rows *rows,
                                int32_t row) {
-  const swath s = begin_swath(context, sums, rows, row);
-  CS_TRY(find_lives(&s));
-  CS_TRY(add_all(&s));
+  const cs_map_adding a = {.context = context, .sums = sums, .rows = rows, .row = row};
+  CS_TRY(find_lives(&a));
+  CS_TRY(add_all(&a));
   sums->unread = (1U << CS_MAP_ROWS) - 1;
   rows->row = row;
   return CELSPAN_OK;
