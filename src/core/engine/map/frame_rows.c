@@ -409,6 +409,7 @@ static celspan_status paint_varied(folding *f, const folded *all, int32_t x, int
  * sheets in front of it stay as they are. Returns the column where it ends. */
 static inline int32_t write_rear(folding *f, int32_t x, cs_row_writer *writer) {
   const cs_map_frame *frame = f->maker->frame;
+  const cs_map_frame behind = {.back = frame->back, .keep = frame->keep};
   const size_t rear = frame->count - 1;
   const cs_map_span *span = f->at[rear];
   const cs_map_sheet sheet = {.back = frame->sheets[rear].back, .keep = frame->sheets[rear].keep};
@@ -418,7 +419,7 @@ static inline int32_t write_rear(folding *f, int32_t x, cs_row_writer *writer) {
     span++;
     cs_map_fold_add(&fold, &sheet, span->colour, cs_map_even(span->colour));
     x = span->end < front.end ? span->end : front.end;
-    cs_row_writer_to(writer, x, cs_map_fold_end_even(fold, frame));
+    cs_row_writer_to(writer, x, cs_map_fold_end_even(fold, &behind));
   }
   f->at[rear] = span;
   return x;

@@ -165,19 +165,23 @@ static celspan_status add_shares(reader *r) {
 
 /* ---------------------------------------------------------------- spans */
 
-/* Begins a span at a column. There is room for it. varies: whether one of its cells varies. */
-static inline celspan_status put(reader *r, bool varies, int32_t column) {
+/* Begins a span; its end is not known yet. */
+static inline void begin_span(const pixel *p, cs_map_span *span) {
+  span->cell = p->cell;
+  span->share = span->share_count = 0;
+  span->colour = p->sum;
+}
+
+/* Begins a span at a column, where cells may vary. There is room for it. */
+static inline celspan_status put(reader *r, int32_t column) {
   const uint32_t cell = r->pixel.cell;
   if (r->last >= r->first) {
     if (r->last->cell == cell && cell != CS_MAP_BROKEN)
       return CELSPAN_OK;
     r->last->end = column;
   }
-  cs_map_span *span = ++r->last;
-  span->cell = cell;
-  span->share = span->share_count = 0;
-  span->colour = r->pixel.sum;
-  return varies && r->rows->area_count > 0 ? add_shares(r) : CELSPAN_OK;
+  begin_span(&r->pixel, ++r->last);
+  return r->rows->area_count > 0 ? add_shares(r) : CELSPAN_OK;
 }
 
 static celspan_status begin_row(reader *r, int32_t width) {
@@ -191,19 +195,42 @@ static celspan_status begin_row(reader *r, int32_t width) {
   return CELSPAN_OK;
 }
 
-static inline celspan_status read_row(reader *r, const cs_map_sums *sums, size_t k, bool varies) {
+static celspan_status read_varied_row(reader *r, const cs_map_sums *sums, size_t k) {
   const size_t count = list_columns(sums, k);
   CS_TRY(begin_row(r, sums->width));
   if (count == 0 || sums->columns[0] > 0)
-    CS_TRY(put(r, varies, 0));
+    CS_TRY(put(r, 0));
   for (size_t i = 0; i < count; i++) {
     cs_map_sum *sum = sum_at(sums, k, sums->columns[i]);
-    if (varies)
-      CS_TRY(change_areas(r, sums, sum->head));
+    CS_TRY(change_areas(r, sums, sum->head));
     change(&r->pixel, sum);
-    CS_TRY(put(r, varies, sums->columns[i]));
+    CS_TRY(put(r, sums->columns[i]));
   }
   r->last->end = sums->width;
+  return CELSPAN_OK;
+}
+
+/* A row in which nothing varies: its pixel stays in registers. */
+static celspan_status read_flat_row(reader *r, const cs_map_sums *sums, size_t k) {
+  const size_t count = list_columns(sums, k);
+  const int32_t *columns = sums->columns;
+  cs_map_sum *pixels = sums->sums + k;
+  CS_TRY(begin_row(r, sums->width));
+  pixel p = r->pixel;
+  cs_map_span *span = r->first;
+  size_t i = count > 0 && columns[0] == 0;
+  if (i > 0)
+    change(&p, pixels);
+  begin_span(&p, span);
+  for (; i < count; i++) {
+    change(&p, &pixels[CS_MAP_ROWS * (size_t)columns[i]]);
+    if (p.cell == span->cell && p.cell != CS_MAP_BROKEN)
+      continue;
+    span->end = columns[i];
+    begin_span(&p, ++span);
+  }
+  span->end = sums->width;
+  r->last = span;
   return CELSPAN_OK;
 }
 
@@ -214,7 +241,7 @@ celspan_status CS_WIDE(cs_map_read)(celspan_context *context, cs_map_sums *sums,
   rows->span_count = rows->share_count = 0;
   for (size_t k = 0; k < CS_MAP_ROWS; k++) {
     rows->first[k] = rows->span_count;
-    CS_TRY(varies ? read_row(&r, sums, k, true) : read_row(&r, sums, k, false));
+    CS_TRY(varies ? read_varied_row(&r, sums, k) : read_flat_row(&r, sums, k));
     rows->span_count = (size_t)(r.last + 1 - rows->spans);
   }
   rows->first[CS_MAP_ROWS] = rows->span_count;
