@@ -393,8 +393,10 @@ static inline void add_piece(const cs_map_adding *a, const target *t, const chan
     add(a, t, sum + 2 * CS_MAP_ROWS, c->three[k], c->weights[2][k]);
 }
 
-static inline void add_run(const cs_map_adding *a, const cs_map_live *live, bool varies,
-                           const piece *pieces, const changes *c, size_t k, size_t end) {
+static inline __attribute__((always_inline)) void add_run(const cs_map_adding *a,
+                                                          const cs_map_live *live, bool varies,
+                                                          const piece *pieces, const changes *c,
+                                                          size_t k, size_t end) {
   const cs_map_sums *sums = a->sums;
   const target t = {.sums = sums->sums,
                     .bits = (unsigned char *)sums->bits,
