@@ -69,12 +69,22 @@ static size_t class_of(size_t size) {
 
 /* ---------------------------------------------------------------- the C library */
 
+/* As realloc. New memory of at least a huge page begins at one. */
+static void *reserve(void *storage, size_t size) {
+#ifdef MADV_HUGEPAGE
+  void *made = NULL;
+  if (!storage && size >= HUGE_PAGE)
+    return posix_memalign(&made, HUGE_PAGE, size) == 0 ? made : NULL;
+#endif
+  return realloc(storage, size);
+}
+
 /* Asks the system for huge pages: it then has fewer pages to clear and to map. */
 static void *advised(void *storage, size_t size) {
 #ifdef MADV_HUGEPAGE
   uintptr_t at = (uintptr_t)storage, first = (at + HUGE_PAGE - 1) & ~(HUGE_PAGE - 1);
   uintptr_t end = (at + size) & ~(HUGE_PAGE - 1);
-  if (storage && size >= 2 * HUGE_PAGE && first < end)
+  if (storage && first < end)
     (void)madvise((void *)first, end - first, MADV_HUGEPAGE);
 #else
   (void)size;
@@ -84,10 +94,10 @@ static void *advised(void *storage, size_t size) {
 
 /* As realloc. If memory is short, it frees the kept memory and tries again. */
 static void *request(cs_spares *spares, void *storage, size_t size) {
-  void *made = realloc(storage, size);
+  void *made = reserve(storage, size);
   if (!made) {
     cs_spares_trim(spares);
-    made = realloc(storage, size);
+    made = reserve(storage, size);
   }
   return advised(made, size);
 }

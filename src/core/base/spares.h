@@ -3,7 +3,7 @@
  * A C library gives large allocations back to the system, which maps and clears each of their pages
  * when they are used again. This takes longer than a frame of a few milliseconds takes otherwise.
  * So memory of 4 KiB to 16 MiB is kept when it is freed, by classes of size, and allocated again.
- * For 4 MiB and more the system is asked for huge pages, of which there are fewer.
+ * For 2 MiB and more the system is asked for huge pages, of which there are fewer.
  *
  *     class     0      1      2      3      4      5            48
  *     KiB       4      5      6      7      8     10   ...   16384   four from each power of two to
