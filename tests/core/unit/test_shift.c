@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "engine/defocus/shifted.h"
+#include "model/colour/space.h"
 #include "tests/support/check.h"
 #include "tests/support/random.h"
 
@@ -72,6 +73,48 @@ static void test_reads(void) {
     for (int plane = 0; plane < 2; plane++) {
       check_reads(&g, plane, count, false);
       check_reads(&g, plane, count, true);
+    }
+}
+
+/* ---------------------------------------------------------------- moves */
+
+/* The exact rule: p + scale (code - 1/2). */
+static double moved(const cs_shifted_moving *moving, const float node[4]) {
+  const float alpha = node[CELSPAN_CHANNEL_ALPHA];
+  bool is_alpha = moving->channel == CELSPAN_CHANNEL_ALPHA;
+  float share = fminf(fmaxf(is_alpha ? alpha : node[moving->channel] / alpha, 0), 1);
+  if (moving->is_converted && !is_alpha)
+    share = cs_space_channel(moving->space, share, 1);
+  return alpha > 0 ? moving->scale * ((double)share - 0.5) : moving->clear;
+}
+
+static void check_moves(const cs_shifted_moving *moving, const float (*nodes)[4], int count) {
+  double out[3][PLACES];
+  for (cs_isa isa = CS_ISA_ANY; isa <= cs_isa_best(); isa++) {
+    memset(out[isa], 0, sizeof *out);
+    CS_WIDE_CHOOSE(isa, cs_shifted_moves)(moving, nodes, count, out[isa]);
+    CHECK(memcmp(out[isa], out[CS_ISA_ANY], sizeof *out) == 0);
+  }
+  for (int k = 0; k < count; k++)
+    CHECK(fabs(out[0][k] - moved(moving, nodes[k])) <= 5e-7 * moving->scale);
+}
+
+/* Light of all sizes, also darker than black and brighter than its alpha, and none. */
+static void test_moves(void) {
+  float nodes[PLACES][4];
+  for (int k = 0; k < PLACES; k++) {
+    float alpha = k % 5 == 0 ? 0 : (float)random_between(&random_state, 0, 1);
+    for (int c = 0; c < 3; c++)
+      nodes[k][c] = alpha * (float)pow(random_between(&random_state, -0.3, 1.05), 3);
+    nodes[k][3] = alpha;
+  }
+  for (int channel = CELSPAN_CHANNEL_RED; channel <= CELSPAN_CHANNEL_ALPHA; channel++)
+    for (int way = 0; way < 3; way++) {
+      const cs_shifted_moving moving = {(celspan_channel)channel, way < 2,
+                                        way == 0 ? CELSPAN_SPACE_SRGB : CELSPAN_SPACE_LINEAR, 80,
+                                        -40};
+      for (int count = 1; count <= PLACES; count += 6)
+        check_moves(&moving, (const float(*)[4])nodes, count);
     }
 }
 
@@ -149,6 +192,7 @@ static void test_blur_refused(void) {
 int main(void) {
   CHECK(celspan_context_create(NULL, &context) == CELSPAN_OK);
   test_reads();
+  test_moves();
   test_displacement_refused();
   test_blur_refused();
   celspan_context_destroy(context);

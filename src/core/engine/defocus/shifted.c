@@ -107,8 +107,7 @@ static celspan_status begin_places(cs_shifted_rows *rows) {
   size_t count = (size_t)count_columns(map);
   for (int axis = 0; axis < 2; axis++)
     CS_TRY(CS_MAKE(rows->context, rows->places[axis], count));
-  return map->shift->kind == CS_SHIFT_DISPLACED ? CS_MAKE(rows->context, rows->channels, 3 * count)
-                                                : CELSPAN_OK;
+  return CELSPAN_OK;
 }
 
 celspan_status cs_shifted_begin(const cs_shifted *map, const cs_defocused *to,
@@ -132,7 +131,6 @@ void cs_shifted_end(cs_shifted_rows *rows) {
   cs_shifted_source_end(rows->context, &rows->by);
   for (int axis = 0; axis < 2; axis++)
     cs_mem_free(memory, rows->places[axis], count * sizeof *rows->places[axis]);
-  cs_mem_free(memory, rows->channels, 3 * count * sizeof *rows->channels);
 }
 
 /* ---------------------------------------------------------------- places */
@@ -156,21 +154,6 @@ static void read_places(const cs_shifted_rows *rows, int plane, bool adds, float
 }
 
 /* ---------------------------------------------------------------- displaced */
-
-/* One channel of what displaces, for all columns of a row, times its alpha. */
-static void take_channel(const cs_shifted_rows *rows, const float (*nodes)[4], int32_t count,
-                         int axis, float *out) {
-  const cs_shift *shift = rows->map->shift;
-  const celspan_channel channel = shift->channels[axis];
-  for (int32_t i = 0; i < count; i++)
-    out[i] = nodes[i][channel];
-  if (channel == CELSPAN_CHANNEL_ALPHA)
-    for (int32_t i = 0; i < count; i++)
-      out[i] *= out[i];
-  else if (shift->space != rows->map->space)
-    CS_WIDE_CHOOSE(rows->isa, cs_space_channels)
-  (shift->space, rows->channels, count, out);
-}
 
 /* The columns of row y of the frame that `by` covers, and its nodes there; else nothing. */
 static celspan_status read_by(cs_shifted_rows *rows, int32_t y, const float (**nodes)[4],
@@ -197,23 +180,17 @@ static celspan_status find_moves(cs_shifted_rows *rows, int32_t y) {
   const cs_shift *shift = map->shift;
   const double clear = shift->moves_clear ? -shift->scale / 2 : 0;
   int32_t count = count_columns(map);
-  float *alpha = rows->channels, *channels[2] = {alpha + count, alpha + 2 * (size_t)count};
   const float(*nodes)[4] = NULL;
   cs_defocused_range there;
   CS_TRY(read_by(rows, y, &nodes, &there));
-  int32_t moved = there.end - there.first;
-  bool is_one = shift->channels[0] == shift->channels[1];
-  for (int32_t i = 0; i < moved; i++)
-    alpha[i] = nodes[i][CELSPAN_CHANNEL_ALPHA];
   for (int axis = 0; axis < 2; axis++) {
     double *moves = rows->places[axis];
-    const float *channel = channels[is_one ? 0 : axis];
-    if (moved > 0 && !(is_one && axis > 0))
-      take_channel(rows, nodes, moved, axis, channels[axis]);
+    const cs_shifted_moving moving = {shift->channels[axis], shift->space != map->space,
+                                      shift->space, shift->scale, clear};
     for (int32_t i = 0; i < there.first; i++)
       moves[i] = clear;
     CS_WIDE_CHOOSE(rows->isa, cs_shifted_moves)
-    (channel, alpha, moved, shift->scale, clear, moves + there.first);
+    (&moving, nodes, there.end - there.first, moves + there.first);
     for (int32_t i = there.end; i < count; i++)
       moves[i] = clear;
   }

@@ -42,7 +42,6 @@ typedef struct cs_shifted_rows {
   cs_shifted_source from, by;
   cs_shifted_line_rows line; /* the line of a line */
   double *places[2];         /* among the nodes, of each column of a row, by axis */
-  float *channels;           /* scratch: of each column, two channels, and the alpha */
 } cs_shifted_rows;
 
 #define CS_SHIFTED_SIDE (1 << 24) /* pixels of a side that are read, at most */
@@ -73,11 +72,19 @@ typedef struct cs_shifted_nodes {
   int32_t columns, count;   /* columns and rows */
 } cs_shifted_nodes;
 
-/* How far `count` points move along an axis by a channel that is multiplied by its alpha, in the
- * cel's units. clear: where the alpha is 0. */
+/* How a channel moves points along an axis, in the cel's units. clear: where the alpha is 0;
+ * space: to which the channel is converted. */
+typedef struct cs_shifted_moving {
+  celspan_channel channel;
+  bool is_converted;
+  celspan_space space;
+  double scale, clear;
+} cs_shifted_moving;
+
+/* How far `count` points move that have these nodes. */
 CS_WIDE_DECLARE(void, cs_shifted_moves,
-                (const float *channel, const float *alpha, int32_t count, double scale,
-                 double clear, double *out));
+                (const cs_shifted_moving *moving, const float (*nodes)[4], int32_t count,
+                 double *out));
 /* Adds moves, in the cel's units, to the places of neighbouring columns, which begin at `start` and
  * are `step` nodes apart. units: how many nodes a unit along each axis is, by axis of the nodes. */
 CS_WIDE_DECLARE(void, cs_shifted_move,

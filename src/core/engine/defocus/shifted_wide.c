@@ -3,19 +3,64 @@
 #include "engine/defocus/shifted.h"
 
 #include "base/vector.h"
+#include "model/colour/power.h"
+#include "model/colour/space.h"
 
 #define TOGETHER 32 /* places */
 #define SIDES 8     /* of which the least and the greatest are found in lanes of their own */
 
-void CS_WIDE(cs_shifted_moves)(const float *channel, const float *alpha, int32_t count,
-                               double scale, double clear, double *out) {
+/* The code of a light, from 0 to 1 both: by a polynomial in the fourth root of the light, less 5/8.
+ * It is wrong by at most 3e-7, less than a move shows, and takes less time than the exact curve.
+ * All instruction sets have the same bits, and white is 1. */
+static inline float encoded(float light) {
+  const float t = sqrtf(sqrtf(light)) - 0.625F, t2 = t * t, t4 = t2 * t2;
+  const float code =
+      (0x1.b54116p-2F + 0x1.490cc4p+0F * t + t2 * (0x1.5efae2p-1F - 0x1.f3bda2p-4F * t)) +
+      t4 * ((0x1.0c56fcp-4F - 0x1.73ef94p-5F * t + t2 * (0x1.226840p-5F - 0x1.157b52p-4F * t)) +
+            t4 * 0x1.6da99ap-4F);
+  return light > (float)CS_POWER_SRGB_LIGHT ? code : (float)CS_POWER_SRGB_SLOPE * light;
+}
+
+static inline void convert(celspan_space to, int32_t count, float *shares) {
+  if (to == CELSPAN_SPACE_SRGB)
+    for (int32_t i = 0; i < count; i++)
+      shares[i] = encoded(shares[i]);
+  else
+    for (int32_t i = 0; i < count; i++)
+      shares[i] = cs_space_channel(to, shares[i], 1);
+}
+
+/* count: at most TOGETHER; mostly that, which is a constant then. */
+static inline void find_moves(const cs_shifted_moving *moving, const float (*nodes)[4],
+                              int32_t count, double *out) {
+  const double scale = moving->scale, clear = moving->clear;
+  const bool is_alpha = moving->channel == CELSPAN_CHANNEL_ALPHA;
+  const float *channel = &nodes[0][moving->channel];
+  float alpha[TOGETHER], shares[TOGETHER];
   for (int32_t i = 0; i < count; i++) {
-    float share = channel[i] / (alpha[i] > 0 ? alpha[i] : 1);
+    alpha[i] = nodes[i][CELSPAN_CHANNEL_ALPHA];
+    shares[i] = channel[4 * i];
+  }
+  for (int32_t i = 0; i < count; i++) {
+    float whole = is_alpha || !(alpha[i] > 0) ? 1 : alpha[i], share = shares[i] / whole;
     share = share > 0 ? share : 0;
-    share = share < 1 ? share : 1;
-    double move = scale * ((double)share - 0.5);
+    shares[i] = share < 1 ? share : 1;
+  }
+  if (moving->is_converted && !is_alpha)
+    convert(moving->space, count, shares);
+  for (int32_t i = 0; i < count; i++) {
+    double move = scale * ((double)shares[i] - 0.5);
     out[i] = alpha[i] > 0 ? move : clear;
   }
+}
+
+void CS_WIDE(cs_shifted_moves)(const cs_shifted_moving *moving, const float (*nodes)[4],
+                               int32_t count, double *out) {
+  int32_t first = 0;
+  for (; first + TOGETHER <= count; first += TOGETHER)
+    find_moves(moving, nodes + first, TOGETHER, out + first);
+  if (first < count)
+    find_moves(moving, nodes + first, count - first, out + first);
 }
 
 void CS_WIDE(cs_shifted_move)(const double start[2], const double step[2], const double units[2][2],
