@@ -41,8 +41,6 @@ typedef enum cs_message_kind {
 
 typedef enum cs_worker_task {
   CS_WORKER_READS = 0, /* pictures, through the picture module */
-  /* PNG files, through the module without OpenImageIO, which loads in a tenth of the time */
-  CS_WORKER_READS_PNG,
   /* one picture, also through the picture module; the only limit is for loading */
   CS_WORKER_WRITES,
   CS_WORKER_SAMPLES, /* colour profiles, through the colour module */

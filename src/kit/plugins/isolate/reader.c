@@ -15,10 +15,7 @@
 #define PIXEL (4 * sizeof(float))
 #define KEPT ((size_t)8 << 20) /* bytes of shared memory that a worker keeps between reads */
 
-enum {
-  REFUSALS_MOST = 64,
-  LIGHT_PIXELS = 1 << 23 /* at most, of a PNG file that is decoded without OpenImageIO */
-};
+enum { REFUSALS_MOST = 64 };
 
 /* ---------------------------------------------------------------- refusals */
 
@@ -75,9 +72,7 @@ static bool find_refusal(const file_key *key, cs_picture_failure *failure) {
 struct cs_picture_reader {
   char *file, *layer, *space; /* layer and space: may be NULL */
   int subimage;
-  file_key key; /* the key of the file that was opened */
-  cs_worker_task task;
-  int32_t width, height;
+  file_key key;      /* the key of the file that was opened */
   cs_worker *worker; /* NULL: none; a worker may have ended */
   uint32_t number;   /* the number of the reader in the worker */
 };
@@ -130,7 +125,7 @@ static celspan_status judge(const cs_picture_reader *reader, cs_worker_outcome o
 static celspan_status take(cs_picture_reader *reader, bool is_fresh, cs_picture_failure *failure) {
   cs_picture_failure reason;
   for (;;) {
-    celspan_status status = cs_worker_take(reader->task, is_fresh, &reader->worker, &reason);
+    celspan_status status = cs_worker_take(CS_WORKER_READS, is_fresh, &reader->worker, &reason);
     if (status != CELSPAN_OK)
       return fail(reader, status, reason.text, failure);
     cs_worker_lock(reader->worker);
@@ -169,10 +164,10 @@ static celspan_status ask_to_open(cs_picture_reader *reader, int descriptor,
   return judge(reader, outcome, &message, is_worn, failure);
 }
 
-/* Opens the file in a worker of the reader's task, or in a new one if that worker had no memory
- * left; keeps the worker locked. */
-static celspan_status attach_by_task(cs_picture_reader *reader, int descriptor, bool is_fresh,
-                                     cs_picture_header *header, cs_picture_failure *failure) {
+/* Opens the file in a worker, or in a new one if that worker had no memory left; keeps the worker
+ * locked. */
+static celspan_status attach(cs_picture_reader *reader, int descriptor, bool is_fresh,
+                             cs_picture_header *header, cs_picture_failure *failure) {
   bool is_worn = false;
   celspan_status status = CELSPAN_OK;
   do {
@@ -188,42 +183,7 @@ static celspan_status attach_by_task(cs_picture_reader *reader, int descriptor, 
   return status;
 }
 
-/* What is refused without OpenImageIO is tried with it. */
-static celspan_status attach(cs_picture_reader *reader, int descriptor, bool is_fresh,
-                             cs_picture_header *header, cs_picture_failure *failure) {
-  cs_picture_failure reason;
-  celspan_status status = attach_by_task(reader, descriptor, is_fresh, header, failure);
-  if (status == CELSPAN_OK || reader->task == CS_WORKER_READS ||
-      find_refusal(&reader->key, &reason))
-    return status;
-  reader->task = CS_WORKER_READS;
-  return attach_by_task(reader, descriptor, is_fresh, header, failure);
-}
-
-static void detach(cs_picture_reader *reader) {
-  const cs_message message = {.kind = CS_MESSAGE_CLOSE, .number = reader->number};
-  cs_worker_lock(reader->worker);
-  /* If the worker cannot receive it, the worker has died; the next request notices this. */
-  if (reader->worker->socket >= 0)
-    (void)!cs_message_send(reader->worker->socket, &message, -1);
-  leave(reader);
-}
-
 /* ---------------------------------------------------------------- opening */
-
-static uint64_t number_at(const unsigned char bytes[4]) {
-  return (uint64_t)bytes[0] << 24 | (uint64_t)bytes[1] << 16 | (uint64_t)bytes[2] << 8 | bytes[3];
-}
-
-/* To load OpenImageIO, with hundreds of libraries, takes longer than to decode a PNG file. */
-static cs_worker_task task_for(int descriptor) {
-  static const char begin[] = "\x89PNG\r\n\x1a\n\0\0\0\rIHDR";
-  unsigned char head[24];
-  bool is_png = pread(descriptor, head, sizeof head, 0) == (ssize_t)sizeof head &&
-                memcmp(head, begin, sizeof begin - 1) == 0;
-  return is_png && number_at(head + 16) * number_at(head + 20) <= LIGHT_PIXELS ? CS_WORKER_READS_PNG
-                                                                               : CS_WORKER_READS;
-}
 
 static char *copy_text(const char *text, bool *is_good) {
   char *copy = text ? strdup(text) : NULL;
@@ -281,13 +241,9 @@ static celspan_status open_first(cs_picture_reader *reader, cs_picture_header *h
   if (find_refusal(&reader->key, &reason)) {
     status = fail(reader, reason.status, reason.text, failure);
   } else {
-    reader->task = task_for(descriptor);
     status = attach(reader, descriptor, false, header, failure);
-    if (status == CELSPAN_OK) {
-      reader->width = header->info.width;
-      reader->height = header->info.height;
+    if (status == CELSPAN_OK)
       cs_worker_unlock(reader->worker);
-    }
   }
   close(descriptor);
   return status;
@@ -303,8 +259,14 @@ celspan_status cs_reader_open(const cs_picture_request *request, cs_picture_read
 }
 
 void cs_reader_close(cs_picture_reader *reader) {
-  if (reader->worker)
-    detach(reader);
+  const cs_message message = {.kind = CS_MESSAGE_CLOSE, .number = reader->number};
+  if (reader->worker) {
+    cs_worker_lock(reader->worker);
+    /* If the worker cannot receive it, the worker has died; the next request notices this. */
+    if (reader->worker->socket >= 0)
+      (void)!cs_message_send(reader->worker->socket, &message, -1);
+    leave(reader);
+  }
   destroy(reader);
 }
 
@@ -392,10 +354,6 @@ celspan_status cs_reader_read(cs_picture_reader *reader, int32_t x, int32_t y, i
                                     height - done < most ? height - done : most};
     status = read_rows(reader, &part, rgba + (size_t)done * 4 * (size_t)width, failure);
   }
-  /* The light module keeps the whole picture, which is mostly read only once. */
-  bool is_last = x + width == reader->width && y + height == reader->height;
-  if (status == CELSPAN_OK && reader->task == CS_WORKER_READS_PNG && is_last)
-    detach(reader);
   return status;
 }
 
@@ -417,10 +375,6 @@ celspan_status cs_reader_list(cs_picture_reader *reader,
                               cs_picture_failure *failure) {
   listener to = {put, user};
   bool is_worn;
-  /* Only OpenImageIO knows all names of parts. */
-  if (reader->task == CS_WORKER_READS_PNG && reader->worker)
-    detach(reader);
-  reader->task = CS_WORKER_READS;
   celspan_status status = return_to_worker(reader, false, failure);
   if (status != CELSPAN_OK)
     return status;

@@ -12,7 +12,6 @@
 #include <unistd.h>
 
 #include "inside/context.h"
-#include "inside/module.h"
 #include "inside/pictures.h"
 #include "plugins/isolate/media_worker.h"
 #include "plugins/isolate/strict.h"
@@ -22,7 +21,6 @@ enum { WORKERS = 256 };
 typedef struct zygote {
   celspan_context *context;
   const cs_picture_module *module; /* NULL: not loaded yet */
-  const cs_picture_module *light;  /* likewise: without OpenImageIO */
   const cs_colour_module *colour;  /* likewise */
   cs_roots roots;
   bool has_roots;
@@ -78,7 +76,7 @@ static uint32_t free_number(const zygote *z) {
 /* Called in the forked process. */
 static _Noreturn void become_worker(const zygote *z, const cs_message_start *start, pid_t parent,
                                     int socket, int memory) {
-  const cs_worker_desc desc = {.module = start->task == CS_WORKER_READS_PNG ? z->light : z->module,
+  const cs_worker_desc desc = {.module = z->module,
                                .colour = z->colour,
                                .roots = z->has_roots ? &z->roots : NULL,
                                .start = *start,
@@ -132,23 +130,11 @@ static void set_alarm(double seconds) {
   setitimer(ITIMER_REAL, &timer, NULL);
 }
 
-static celspan_status load_light(zygote *z) {
-  const void *table = NULL;
-  if (z->light)
-    return CELSPAN_OK;
-  celspan_status status = cs_module_load(z->context, cs_modules_picture.other,
-                                         CS_PICTURE_MODULE_VERSION, CELSPAN_INPUT, &table);
-  z->light = table;
-  return status;
-}
-
 /* A library without memory may deadlock, as GLib does. */
 static celspan_status load(zygote *z, const cs_message_start *start) {
   celspan_status status = CELSPAN_OK;
   set_alarm(start->loading);
-  if (start->task == CS_WORKER_READS_PNG)
-    status = load_light(z);
-  else if (start->task == CS_WORKER_SAMPLES && !z->colour)
+  if (start->task == CS_WORKER_SAMPLES && !z->colour)
     status = cs_profile_table_module(z->context, &z->colour);
   else if (start->task < CS_WORKER_SAMPLES && !z->module)
     status = cs_store_module(
