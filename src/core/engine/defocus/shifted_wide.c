@@ -9,22 +9,10 @@
 #define TOGETHER 32 /* places */
 #define SIDES 8     /* of which the least and the greatest are found in lanes of their own */
 
-/* The code of a light, from 0 to 1 both: by a polynomial in the fourth root of the light, less 5/8.
- * It is wrong by at most 3e-7, less than a move shows, and takes less time than the exact curve.
- * All instruction sets have the same bits, and white is 1. */
-static inline float encoded(float light) {
-  const float t = sqrtf(sqrtf(light)) - 0.625F, t2 = t * t, t4 = t2 * t2;
-  const float code =
-      (0x1.b54116p-2F + 0x1.490cc4p+0F * t + t2 * (0x1.5efae2p-1F - 0x1.f3bda2p-4F * t)) +
-      t4 * ((0x1.0c56fcp-4F - 0x1.73ef94p-5F * t + t2 * (0x1.226840p-5F - 0x1.157b52p-4F * t)) +
-            t4 * 0x1.6da99ap-4F);
-  return light > (float)CS_POWER_SRGB_LIGHT ? code : (float)CS_POWER_SRGB_SLOPE * light;
-}
-
 static inline void convert(celspan_space to, int32_t count, float *shares) {
   if (to == CELSPAN_SPACE_SRGB)
     for (int32_t i = 0; i < count; i++)
-      shares[i] = encoded(shares[i]);
+      shares[i] = cs_power_srgb_near(shares[i]); /* no move shows its error */
   else
     for (int32_t i = 0; i < count; i++)
       shares[i] = cs_space_channel(to, shares[i], 1);

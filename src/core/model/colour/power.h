@@ -10,6 +10,7 @@
  */
 #pragma once
 
+#include <math.h>
 #include <stdint.h>
 #include <string.h>
 
@@ -72,6 +73,18 @@ static inline double cs_power_srgb_base(double code) { return (code + 0.055) / 1
 
 static inline double cs_power_srgb_encoded(double light, double power) {
   return light <= CS_POWER_SRGB_LIGHT ? CS_POWER_SRGB_SLOPE * light : 1.055 * power - 0.055;
+}
+
+/* The code of a light from 0 to 1, by a polynomial in the fourth root of the light, less 5/8: in
+ * less time than the power, for what is not a colour. The error is at most 3e-7, and white is 1.
+ * All sets of instructions have the same bits. */
+static inline float cs_power_srgb_near(float light) {
+  const float t = sqrtf(sqrtf(light)) - 0.625F, t2 = t * t, t4 = t2 * t2;
+  const float code =
+      (0x1.b54116p-2F + 0x1.490cc4p+0F * t + t2 * (0x1.5efae2p-1F - 0x1.f3bda2p-4F * t)) +
+      t4 * ((0x1.0c56fcp-4F - 0x1.73ef94p-5F * t + t2 * (0x1.226840p-5F - 0x1.157b52p-4F * t)) +
+            t4 * 0x1.6da99ap-4F);
+  return light > (float)CS_POWER_SRGB_LIGHT ? code : (float)CS_POWER_SRGB_SLOPE * light;
 }
 
 static inline double cs_power_srgb_decoded(double code, double power) {
