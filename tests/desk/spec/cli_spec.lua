@@ -209,6 +209,21 @@ complete_words celspan render film.lua --format a
       assert.truthy(near:find("\n    celspan help lua stroke\n", 1, true), near)
     end)
 
+    it("ends a recipe with how it is saved and run", function()
+      local function last_of(recipe)
+        local _, out = celspan("help " .. recipe)
+        return (out:match "\n(Save it as .*)\n$":gsub("\n", " "))
+      end
+      local copied = "copy the folders drawings, pictures, stage and type beside it"
+      assert.equal("Save it as three_depths.lua, and " .. copied,
+        last_of("three_depths"):match "^(.-), from")
+      assert.truthy(last_of("rolling_counter"):find(
+        "'celspan play rolling_counter.lua --allow-system-fonts' shows it", 1, true))
+      assert.truthy(last_of("plates"):find("'lua5.4 plates.lua' runs it.", 1, true))
+      local alone = last_of "drop_shadow"
+      assert.is_nil(alone:find(copied, 1, true) or alone:find("fonts", 1, true), alone)
+    end)
+
     it("finds what is nearest to some words, and says where to read on", function()
       local code, found, err = celspan "help camera shake"
       assert.same({ 0, "" }, { code, err })

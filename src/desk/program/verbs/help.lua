@@ -170,12 +170,25 @@ end
 
 local SHOWN = 3
 
+-- Folders of celspan's scripts that recipes read; scenery in `stage` reads the others.
+local FOLDERS = { '"drawings/', '"pictures/', '"stage[./]', '"type/' }
+local COPIED = ", and copy the folders drawings, pictures, stage and type beside it, from scripts "
+  .. "of the source or share/celspan/examples"
+
+--- How a recipe is saved and run.
+local function use_of(recipe)
+  local is_beside = false
+  for _, folder in ipairs(FOLDERS) do is_beside = is_beside or recipe.page:find(folder) end
+  local fonts = recipe.page:find("--allow-system-fonts", 1, true) and " --allow-system-fonts"
+  local run = recipe.page:find("lua5.4 " .. recipe.name, 1, true) and "'lua5.4 NAME.lua' runs it."
+    or "'celspan play NAME.luaFONTS' shows it, and 'celspan render NAME.lua -o NAME.mp4FONTS' "
+      .. "makes a video."
+  local text = "Save it as NAME.lua" .. (is_beside and COPIED or "") .. ". " .. run
+  return wrapped((text:gsub("%u+", { NAME = recipe.name, FONTS = fonts or "" })), 0) .. "\n"
+end
+
 local function put_recipe(out, recipe)
-  local beside = recipe.page:find('require "stage.', 1, true)
-    and ", and copy the folder scripts/stage of celspan beside it" or ""
-  out:write(recipe.title, "\n\n", recipe.page, "\n\n", ("Save it as NAME.lua%s. 'celspan play "
-    .. "NAME.lua' shows it, and 'celspan render NAME.lua -o NAME.mp4' makes a video.\n")
-    :gsub("NAME", recipe.name):format(beside))
+  out:write(recipe.title, "\n\n", recipe.page, "\n\n", use_of(recipe))
 end
 
 local function put_recipes(out, recipes)
