@@ -154,6 +154,10 @@ print(circle and seen)]])
     assert.matches("nothing has the name 'red' here; did you mean \"red\", in quotes?",
       list[1].message, 1, true)
     assert.are.equal(2, list[1].line)
+    bench:write("hues.lua", "red = '#f00'\nreturn {}")
+    bench:write("film.lua", "require 'hues'\nlocal c = circle { 1, 1, 1, fill = red }" .. END)
+    _, out, err = bench:celspan_inside "check film.lua --json"
+    assert.are.same({}, json.decode(out), err)
   end)
 
   it("makes a value that check finds to be thrown away", function()

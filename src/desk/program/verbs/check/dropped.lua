@@ -291,29 +291,25 @@ end
 local BEFORE = { ["="] = true, [","] = true, ["{"] = true, ["("] = true, ["or"] = true }
 local AFTER = { [","] = true, ["}"] = true, [")"] = true, [";"] = true, ["or"] = true }
 
---- Adds a sentence for each name of a colour that stands for a value, but that nothing has: `fill =
---- red` for `fill = "red"`.
-local function add_unquoted(sentences, path, list)
-  local bindings
+--- Adds a sentence for each name of a colour that stands for a value, as `fill = red` does for
+--- `fill = "red"`, to the unquoted, and to its table `bound` the names with a value in this file.
+local function add_unquoted(unquoted, path, list)
+  for name in pairs(bindings_of(list)) do unquoted.bound[name] = true end
   for i, token in ipairs(list) do
     local is_value = token.kind == "name" and i > 1 and BEFORE[list[i - 1].kind]
       and AFTER[(list[i + 1] or token).kind]
     if is_value and _G[token.text] == nil and pcall(celspan.rgb, token.text) then
-      bindings = bindings or bindings_of(list)
-      if not bindings[token.text] then
-        sentences[#sentences + 1] = ("%s:%d: nothing has the name '%s' here; did you mean \"%s\", "
-          .. "in quotes?"):format(path, token.line, token.text, token.text)
-      end
+      local words = ("%s:%d: nothing has the name '%s' here; did you mean \"%s\", in quotes?")
+        :format(path, token.line, token.text, token.text)
+      unquoted[#unquoted + 1] = { name = token.text, sentence = words }
     end
   end
 end
 
---- Adds a sentence, with the file's path, for each value that a text does not use. Returns the
---- modules that the text requires.
-local function add_dropped(sentences, path, text)
+--- Adds a sentence, with the file's path, for each value that a text does not use, and each global
+--- that hides a name. Returns the modules that the text requires.
+local function add_dropped(sentences, path, text, list)
   add_hiding(sentences, path, text)
-  local list = tokens.of(text)
-  add_unquoted(sentences, path, list)
   local places = calls_of(list)
   if #places > 0 and not next(calls) then calls, parents = manual.types() end
   local types = #places > 0 and types_of(list)
@@ -328,13 +324,15 @@ local function add_dropped(sentences, path, text)
 end
 
 --- text: of the file, if it has been read already.
-local function add_file(sentences, folder, path, is_seen, text)
+local function add_file(sentences, unquoted, folder, path, is_seen, text)
   text = text or not is_seen[path] and files.read(path, BYTES_MOST)
   is_seen[path] = true
   if not text then return end
-  for _, name in ipairs(add_dropped(sentences, path, text)) do
+  local list = tokens.of(text)
+  add_unquoted(unquoted, path, list)
+  for _, name in ipairs(add_dropped(sentences, path, text, list)) do
     if name:find "^[%w_-][%w_.-]*$" then -- a dot at its beginning would lead to the root
-      add_file(sentences, folder, folder .. name:gsub("%.", "/") .. ".lua", is_seen)
+      add_file(sentences, unquoted, folder, folder .. name:gsub("%.", "/") .. ".lua", is_seen)
     end
   end
 end
@@ -343,9 +341,12 @@ end
 --- and each colour without quotes, in a script, or in modules beside it that it requires. text: of
 --- the script, if it is not a file.
 function dropped.of_script(path, text)
-  local sentences = {}
+  local sentences, unquoted = {}, { bound = {} }
   if text and #text <= BYTES_MOST or program.has_ending(path, ".lua") then
-    add_file(sentences, path:match "^.*/" or "", path, {}, text)
+    add_file(sentences, unquoted, path:match "^.*/" or "", path, {}, text)
+  end
+  for _, one in ipairs(unquoted) do
+    if not unquoted.bound[one.name] then sentences[#sentences + 1] = one.sentence end
   end
   return sentences
 end
