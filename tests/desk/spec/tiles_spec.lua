@@ -424,7 +424,8 @@ describe("wrong usage", function()
   end
 
   it("is an invalid file of places, or one with places outside the film", function()
-    for _, place in ipairs { "somewhere", "1 2 3", "1 2 nan it", "1 2 inf it", "1 2 0 it",
+    for _, place in ipairs { "somewhere", "1 2 3", "1 2 nan it", "1 2 inf it", "1 2 1e999 it",
+      "1 2 0 it",
       "1 2 -1 it", "-1 2 3 it",
       "701 2 3 it", "1 -2 3 it", "1 501 3 it", "1 2 3 " .. ("long "):rep(60) } do
       write("places.txt", "0 0 1 the corner\n" .. place .. "\n")

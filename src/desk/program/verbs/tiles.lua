@@ -70,7 +70,8 @@ local function place_of(line)
   x, y, width = tonumber(x), tonumber(y), tonumber(width)
   if not (x and y and width) or #label > PLACE_NAME_MOST then return nil end
   local is_inside = x >= 0 and x <= shown.film_width and y >= 0 and y <= shown.film_height
-  return is_inside and width > 0 and { x = x, y = y, width = width, label = label } or nil
+  return is_inside and width > 0 and width < math.huge
+    and { x = x, y = y, width = width, label = label } or nil
 end
 
 local function read_places(file_path)
@@ -233,7 +234,7 @@ end
 program.save(output .. "/index.html", (program.text "tiles.html":gsub("@(%u+)@", {
   VIEWER = program.text "viewer.js",
   PYRAMID = DATA:format(quoted(name), quoted(shown.title or name), layout,
-    ending, background, io.open(output .. OPENSEADRAGON) ~= nil, shown.width,
+    ending, background, read(output .. OPENSEADRAGON) ~= nil, shown.width,
     shown.height, tile, overlap, placed(), coverage()),
 })))
 if request.progress ~= "none" then
