@@ -252,6 +252,7 @@ static int make_png(lua_State *L) {
   png->has_workers = true;
   cs_service_try(L, cs_stage_make(png, cs_service_session(L)->context, &desc, CS_STAGE_PNG));
   lua_pushlstring(L, (const char *)png->bytes, png->size);
+  cs_stage_release(png); /* Lua does not know how large it is */
   lua_pushinteger(L, desc.width);
   lua_pushinteger(L, desc.height);
   return 3;

@@ -36,7 +36,7 @@ typedef struct cs_stage_picture {
   cs_png_strips *strips; /* the strips of a PNG that is being made */
 } cs_stage_picture;
 
-/* p: all zero, except the first two fields. It must be released, whatever this returns. Any
+/* p: all zero, except is_opaque and has_workers. It must be released, whatever this returns. Any
  * thread. */
 CELSPAN_CHECKED celspan_status cs_stage_make(cs_stage_picture *p, celspan_context *context,
                                              const celspan_frame_desc *desc, cs_stage_kind kind);

@@ -4,7 +4,7 @@
  *   characters/hand.lua        picture "palm.png"   -> characters/palm.png, else palm.png
  *
  * A relative name is looked for beside the Lua file of the nearest caller that is not celspan's
- * own, then beside the script, where there is one. To find a file opens nothing.
+ * own, then beside the script, where there is one. Finding a file opens nothing.
  */
 #pragma once
 

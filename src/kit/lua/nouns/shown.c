@@ -150,7 +150,8 @@ static void push_exposures(lua_State *L, int list, lua_Integer count, const plac
   lua_createtable(L, (int)count, 0);
   for (place item = {at, "exposure", 1}; item.number <= count; item.number++) {
     lua_createtable(L, 2, 0);
-    lua_rawgeti(L, list, item.number);
+    if (lua_rawgeti(L, list, item.number) != LUA_TTABLE) /* a script may change it meanwhile */
+      refuse(L, &item, cs_userdata_type(L, -1));
     lua_rawgeti(L, -1, 1);
     make_rostrum(L, &item);
     lua_rawseti(L, -3, 1);
