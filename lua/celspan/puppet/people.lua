@@ -314,8 +314,8 @@ function people.wave(rig, time, options)
       options and options.side or "near")
   end
   local facing = rig.__figure.facing
-  return { ["upper arm " .. side] = -105 * facing,
-           ["lower arm " .. side] = facing * (22 * wave(2 * time) - 24), head = -4 * facing }
+  return { ["upper arm " .. side] = -125 * facing,
+           ["lower arm " .. side] = facing * (22 * wave(2 * time) - 12), head = -4 * facing }
 end
 
 --- A pose with the head turned, in degrees, clockwise.
