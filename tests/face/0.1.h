@@ -527,6 +527,9 @@ typedef struct celspan_painting celspan_painting;
 typedef struct celspan_painting_layer { size_t struct_size; const char *name; const char *blend;
   size_t parent; bool is_group, is_visible; double opacity; int32_t x, y, width, height;
   celspan_surface *surface; const char *colour; } celspan_painting_layer;
+typedef struct celspan_painting_key { size_t struct_size; size_t layer; int32_t frame; int32_t
+  colour; bool is_opacity; size_t drawing; double opacity; const char *between; double in[2],
+  out[2]; } celspan_painting_key;
 celspan_status celspan_painting_read(celspan_context *context, const char *file, celspan_painting
   **out);
 celspan_painting *celspan_painting_ref(celspan_painting *painting);
@@ -538,6 +541,11 @@ bool celspan_painting_layer_at(const celspan_painting *painting, size_t index,
 size_t celspan_painting_note_count(const celspan_painting *painting);
 const char *celspan_painting_note_at(const celspan_painting *painting, size_t index, size_t
   *layer);
+bool celspan_painting_clip(const celspan_painting *painting, double *rate, int32_t *from, int32_t
+  *to);
+size_t celspan_painting_key_count(const celspan_painting *painting);
+bool celspan_painting_key_at(const celspan_painting *painting, size_t index, celspan_painting_key
+  *out);
 typedef struct celspan_trace celspan_trace;
 typedef struct celspan_trace_desc { size_t struct_size; const celspan_picture_desc *picture;
   int32_t colours; const unsigned char *codes; double smooth; int32_t speckle; bool lines; }

@@ -240,6 +240,7 @@ return {
   ["lua/celspan/tools/relight.lua"] = { "spec/relight", "property/stack" },
   ["lua/celspan/sheet/sheet.lua"] = { "unit/fuzz-sheets", "spec/sheet" },
   ["lua/celspan/sheet/sheet_csv.lua"] = { "unit/fuzz-sheets", "spec/sheet" },
+  ["lua/celspan/sheet/sheet_krita.lua"] = { "spec/krita" },
   ["lua/celspan/sheet/sheet_oca.lua"] = { "unit/fuzz-sheets", "spec/sheet" },
   ["lua/celspan/sheet/sheet_text.lua"] = { "unit/fuzz-sheets", "spec/sheet" },
   ["lua/celspan/film/shutter.lua"] = { "spec/camera" },

@@ -7,10 +7,11 @@
 -- A layer: name, x, y, w, h, pixel = function(x, y) -> r, g, b, a (codes; x, y from its corner),
 -- and opacity (0..1), visible, blend (the format's own word), layers (a group), attributes (more of
 -- XML). profile: the bytes of a colour profile, of a layer (OpenRaster, Krita) or of the painting
--- (Krita, Photoshop). name: what a Krita image is called; its layers lie in "forest". alpha: the
--- bytes of a Photoshop layer's alpha, instead of its own. How it is packed: deflate (zip members),
--- lzf (Krita), packing = "raw", "packbits", "zip" or "predicted" (Photoshop); depth = 8 or 16;
--- grey.
+-- (Krita, Photoshop). members: further files of a Krita layer, by the endings of their names; FILE
+-- in them and in attributes is the name of its own. inside: more XML of a Krita layer or image.
+-- name: what a Krita image is called; its layers lie in "forest". alpha: the bytes of a Photoshop
+-- layer's alpha, instead of its own. How it is packed: deflate (zip members), lzf (Krita),
+-- packing = "raw", "packbits", "zip" or "predicted" (Photoshop); depth = 8 or 16; grey.
 local stored = require "tests.support.stored"
 
 local paintings = {}
@@ -298,7 +299,8 @@ local function krita_layers(list, members)
       layer.visible == false and 0 or 1, "opacity", math.floor(255 * (layer.opacity or 1) + 0.5),
       "compositeop", layer.blend or "normal", "colorspacename", layer.space or space, "x",
       (layer.x or 0) - (layer.tile_x or 0), "y", (layer.y or 0) - (layer.tile_y or 0), "nodetype",
-      layer.kind or (layer.layers and "grouplayer" or "paintlayer") } .. (layer.attributes or "")
+      layer.kind or (layer.layers and "grouplayer" or "paintlayer") }
+      .. (layer.attributes or ""):gsub("FILE", file)
     if layer.layers then
       out[#out + 1] = "<layer" .. common .. "><layers>" .. krita_layers(layer.layers, members)
         .. "</layers></layer>"
@@ -307,6 +309,10 @@ local function krita_layers(list, members)
         data = layer.tiles or (layer.pixel and paintings.krita_tiles(layer) or "") }
       if layer.profile then
         members[#members + 1] = { name = "forest/layers/" .. file .. ".icc", data = layer.profile }
+      end
+      for ending, data in pairs(layer.members or {}) do
+        members[#members + 1] = { name = "forest/layers/" .. file .. ending,
+          data = data:gsub("FILE", file) }
       end
       if layer.beyond then
         members[#members + 1] = { name = "forest/layers/" .. file .. ".defaultpixel",
@@ -331,7 +337,8 @@ function paintings.krita(painting)
       .. 'xmlns="http://www.calligra.org/DTD/krita"'
       .. (' syntaxVersion="2">\n<IMAGE name="%s" width="%d" height="%d" colorspacename="RGBA"%s>\n'
         ):format(painting.name or "forest", painting.w, painting.h, painting.attributes or "")
-          .. "<layers>\n" .. list .. "\n</layers>\n</IMAGE>\n</DOC>\n" }
+          .. "<layers>\n" .. list .. "\n</layers>\n" .. (painting.inside or "")
+          .. "</IMAGE>\n</DOC>\n" }
   return paintings.zip(members)
 end
 

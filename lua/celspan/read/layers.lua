@@ -8,6 +8,7 @@
 -- A tree is a list of layers and groups, rearmost first. Pixels are read when they are first
 -- visible. `skipped` lists everything that looks different in the program that made the painting.
 local celspan = require "celspan"
+local columns = require "celspan.columns"
 local native = require "celspan.native"
 local dissolve = require "celspan.dissolve"
 local fields = require "celspan.fields"
@@ -15,6 +16,7 @@ local files = require "celspan.files"
 local folder_names = require "celspan.folder_names"
 local oca = require "celspan.oca"
 local sets = require "celspan.sets"
+local sheet_krita = require "celspan.sheet_krita"
 local sheet_oca = require "celspan.sheet_oca"
 
 local layers = {}
@@ -36,9 +38,13 @@ Entry.__index = fields.reads("a layer", {}, { children = true })
 ---@field height? number
 ---@field object celspan.object All visible layers, composited by themselves
 ---@field skipped { layer: string, what: string }[]
+---@field fps? number If it moves
+---@field from? integer Its first frame, as the file counts, and the last one
+---@field to? integer
 local Tree = { __name = "celspan.layers.tree" }
 local methods = {}
-Tree.__index = fields.reads("a tree of layers", methods, { width = true, height = true })
+Tree.__index = fields.reads("a tree of layers", methods,
+  { width = true, height = true, fps = true, from = true, to = true })
 
 --- The data of layers that are not in their entries, hidden from scripts; cels are made from them.
 local sources = setmetatable({}, { __mode = "k" })
@@ -116,11 +122,13 @@ local function name_of(text, kind) return text ~= "" and text or kind end
 
 --- given: name, x, y, opacity, visible, blend; children, or picture (the fields of an image, with x
 --- and y), or neither for an empty layer; clipped, within: how the layers below cut it; mask: for a
---- group, an object through which it is visible; pivot: of the object. options: those of `read`.
+--- group, an object through which it is visible; pivot: of the object; exposures: the column of a
+--- sheet, of a group of drawings; opacities: its keys. options: those of `read`.
 local function make_entry(given, options)
   local source = { name = name_of(given.name, given.children and "group" or "layer"),
                    clipped = given.clipped, within = given.within, mask = given.mask,
-                   space = options.space }
+                   space = options.space, exposures = given.exposures,
+                   opacities = given.opacities }
   if given.picture then given.picture.smooth = options.smooth end
   local object
   if given.children then
@@ -179,22 +187,18 @@ local function complete_tree(list, width, height, skipped, space)
   return setmetatable(tree, Tree)
 end
 
+--- The same tree, with the frames of a clip.
+local function moving(tree, clip)
+  tree.fps, tree.from, tree.to = clip.fps, clip.from, clip.to
+  return tree
+end
+
 local function make_tree(list, width, height, skipped, options)
   note_blends(list, "", skipped)
   return complete_tree(list, width, height, skipped, options.space)
 end
 
 -- ---------------------------------------------------------------- paintings
-
---- The path of each layer of a painting, "group/layer".
-local function paths_of(flat)
-  local paths = {}
-  for i = #flat, 1, -1 do -- groups come after their layers
-    local parent = flat[i].parent
-    paths[i] = parent and paths[parent] .. "/" .. flat[i].name or flat[i].name
-  end
-  return paths
-end
 
 --- The mask of a group of a painting, in the size of the painting.
 local function mask_of(layer, painting)
@@ -206,6 +210,7 @@ local function from_painting(path, options)
   local painting, message = native.painting(path)
   if not painting then return nil, message end
   local flat, children, list = painting.layers, {}, {}
+  local exposures, opacities = sheet_krita.exposures(painting), sheet_krita.opacities(painting)
   for i, layer in ipairs(flat) do
     local picture = layer.pixels and { pixels = layer.pixels, colour = layer.colour, x = layer.x,
                                        y = layer.y, w = layer.width, h = layer.height }
@@ -217,13 +222,14 @@ local function from_painting(path, options)
     siblings[#siblings + 1] = make_entry({ name = layer.name, x = layer.x, y = layer.y,
       picture = picture, opacity = layer.opacity, visible = layer.visible, blend = layer.blend,
       children = layer.group and (children[i] or {}) or nil, clipped = layer.clipped,
-      within = layer.within, mask = mask_of(layer, painting) }, options)
+      within = layer.within, mask = mask_of(layer, painting), exposures = exposures[i],
+      opacities = opacities[i] }, options)
   end
-  local skipped, paths = {}, paths_of(flat)
+  local skipped = {}
   for i, note in ipairs(painting.notes) do
-    skipped[i] = { layer = note.layer and paths[note.layer] or "", what = note.what }
+    skipped[i] = { layer = note.layer and flat[note.layer].path or "", what = note.what }
   end
-  return make_tree(list, painting.width, painting.height, skipped, options)
+  return moving(make_tree(list, painting.width, painting.height, skipped, options), painting)
 end
 
 -- ---------------------------------------------------------------- folders
@@ -271,7 +277,7 @@ local function from_oca(folder, document, options)
   local entries
   entries, message = caught(function() return build(read.layers) end)
   if not entries then return nil, message end
-  return make_tree(entries, read.width, read.height, read.skipped, options)
+  return moving(make_tree(entries, read.width, read.height, read.skipped, options), read.clip)
 end
 
 -- ---------------------------------------------------------------- the module
@@ -363,15 +369,18 @@ end
 
 -- ---------------------------------------------------------------- changes
 
---- A copy of an entry with new contents: children, or an object; or with another pivot.
-local function remade(entry, children, object, pivot)
+--- A copy of an entry with new contents: children, or an object; or with another pivot. shown: what
+--- differs of visible and opacity.
+local function remade(entry, children, object, pivot, shown_as)
   local source = sources[entry]
+  shown_as = shown_as or entry
   if not pivot and getmetatable(object or entry.object) == "celspan.object" then
     pivot = (object or entry.object).pivot
   end
-  return make_entry({ name = entry.name, x = entry.x, y = entry.y, opacity = entry.opacity,
-    visible = entry.visible, blend = entry.blend, children = children, object = object,
-    clipped = source.clipped, within = source.within, mask = source.mask, pivot = pivot },
+  return make_entry({ name = entry.name, x = entry.x, y = entry.y, opacity = shown_as.opacity,
+    visible = shown_as.visible, blend = entry.blend, children = children, object = object,
+    clipped = source.clipped, within = source.within, mask = source.mask, pivot = pivot,
+    exposures = source.exposures, opacities = source.opacities },
     { space = source.space })
 end
 
@@ -400,6 +409,12 @@ local function changed_list(list, path, changes, done)
   return is_changed and copy or nil
 end
 
+--- The tree with another list; itself without one.
+local function with_list(tree, list)
+  return list and moving(complete_tree(list, tree.width, tree.height, tree.skipped, spaces[tree]),
+    tree) or tree
+end
+
 --- The painting with layers replaced, inner ones first. Each function gets the object of the layer
 --- at its path, without opacity and blend mode, and returns another object. Opacities, modes,
 --- clipping and the order of the layers are kept. A table { pivot = } gives a layer the point that
@@ -418,9 +433,52 @@ function methods:with(changes)
         "layers: layer '%s' must have a function", path)
     end
   end
-  local list = changed_list(self, "", changes, {})
-  return list and complete_tree(list, self.width, self.height, self.skipped, spaces[self])
-    or self
+  return with_list(self, changed_list(self, "", changes, {}))
+end
+
+-- ---------------------------------------------------------------- frames
+
+--- The drawings of a layer, of which only the one of a name is visible.
+local function exposed(drawings, name)
+  local copy, is_found = {}, false
+  for i, drawing in ipairs(drawings) do
+    local visible = drawing.name == name and not is_found
+    is_found = is_found or visible
+    copy[i] = drawing.visible == visible and drawing
+      or remade(drawing, drawing.children, drawing.object, nil, { visible = visible,
+        opacity = drawing.opacity })
+  end
+  return copy
+end
+
+--- Copies a list as it is at a frame, as the sheet counts; nil if nothing in it moves.
+local function list_at(list, frame)
+  local copy, moves = {}, false
+  for i, entry in ipairs(list) do
+    local source, children = sources[entry], entry.children
+    if source.exposures then
+      children = exposed(children, source.exposures.names[columns.find(source.exposures, frame)])
+    else
+      children = children and list_at(children, frame)
+    end
+    local opacity = source.opacities and sheet_krita.opacity(source.opacities, frame)
+    local is_changed = children or opacity
+    copy[i] = is_changed and remade(entry, children or entry.children, not entry.children
+      and entry.object or nil, nil, { visible = entry.visible, opacity = opacity or entry.opacity })
+      or entry
+    moves = moves or is_changed
+  end
+  return moves and copy or nil
+end
+
+--- The painting as it is at a frame, as the file counts: its layers show their drawings of this
+--- frame, and have its opacities. Before its first drawing a layer is empty.
+---@param frame number
+---@return celspan.layers.tree
+function methods:at(frame)
+  fields.self("layers", Tree, self, "at")
+  fields.expect_kind(fields.is_finite(frame), frame, "layers: at takes the number of a frame")
+  return with_list(self, list_at(self, math.floor(frame) - (self.from or 0) + 1))
 end
 
 local function nothing() return celspan.union {} end

@@ -8,6 +8,7 @@
 -- layer with several drawings becomes a group of them, of which the first is visible; none is if
 -- the first frame is empty.
 local celspan = require "celspan"
+local columns = require "celspan.columns"
 local native = require "celspan.native"
 local fields = require "celspan.fields"
 local files = require "celspan.files"
@@ -106,9 +107,8 @@ local function read_drawings(state, layer, path, what)
       fail("%s must be an object, got %s", here, fields.kind(frame))
     end
     count_layer(state, here)
-    local name = value_of(frame, here, "name", "")
-    local file = value_of(frame, here, "fileName", "")
-    if file ~= "" and name ~= "_blank" then
+    local name, file = sheet_oca.drawing(frame, here), value_of(frame, here, "fileName", "")
+    if name then
       local x, y, w, h = place_of(frame, here, state.width, state.height)
       list[#list + 1] = { name = name, x = x, y = y, blend = "normal",
         visible = #list == 0 and not is_late,
@@ -150,7 +150,8 @@ local function read_layer(state, layer, folder, what)
   local drawings, is_late = read_drawings(state, layer, path, what)
   share_opacity(state, out, drawings)
   if #drawings > 1 or is_late and #drawings > 0 then
-    out.children = drawings
+    out.children, out.exposures = drawings, columns.new(path)
+    sheet_oca.expose(out.exposures, layer, what, state.from)
   elseif #drawings == 1 then
     out.x, out.y, out.picture = drawings[1].x, drawings[1].y, drawings[1].picture
     out.opacity = out.opacity * drawings[1].opacity
@@ -187,12 +188,15 @@ local function read_document(folder, text)
   local state = { folder = folder, count = 0, skipped = {},
     width = number_of(document, "the document", "width", 1920, 1, 1048576),
     height = number_of(document, "the document", "height", 1080, 1, 1048576) }
+  local clip = sheet_oca.clip(document)
+  state.from = clip.from
   state.has_one_opacity = has_one_opacity(value_of(document, "the document", "ocaVersion", ""))
   local list = value_of(document, "the document", "layers", {})
   local read = read_layers(state, list, "", "")
   local ground = background(document, state.width, state.height)
   if ground then table.insert(read, 1, ground) end
-  return { width = state.width, height = state.height, layers = read, skipped = state.skipped }
+  return { width = state.width, height = state.height, layers = read, skipped = state.skipped,
+           clip = clip }
 end
 
 ---@param folder string

@@ -1,6 +1,6 @@
 --- Exposure sheets: which drawing each layer shows at each frame.
 --
---   local s = assert(sheet.read "shot.xdts")           -- .xdts, .csv, .txt, an OCA folder
+--   local s = assert(sheet.read "shot.xdts")           -- .xdts, .csv, .txt, .kra, an OCA folder
 --   s:at("body", 12)                                   -- "3", or nil if the layer is empty
 --   s:drawing("body", f, "drawings/body_####.png")     -- the picture of that drawing
 --
@@ -12,6 +12,7 @@ local fields = require "celspan.fields"
 local files = require "celspan.files"
 local sheet_csv = require "celspan.sheet_csv"
 local sheet_film = require "celspan.sheet_film"
+local sheet_krita = require "celspan.sheet_krita"
 local sheet_oca = require "celspan.sheet_oca"
 local sheet_text = require "celspan.sheet_text"
 local xdts = require "celspan.xdts"
@@ -203,6 +204,7 @@ end
 -- ---------------------------------------------------------------- reading
 
 local function decode(text, path, which)
+  if type(text) == "table" then return finish(sheet_krita.decode(text)) end
   local start = text:gsub("^\239\187\191", "", 1)
   if xdts.accepts(start) then return finish(xdts.decode(start, which)) end
   if sheet_text.accepts(start) then return finish(sheet_text.decode(start)) end
@@ -210,11 +212,12 @@ local function decode(text, path, which)
   if sheet_csv.accepts(start) or path:lower():find "%.csv$" then
     return finish(sheet_csv.decode(start))
   end
-  columns.fail("it is not XDTS, the CSV of TVPaint, Krita or Clip Studio, OCA, or celspan's text, "
-    .. "which begins with \"celspan sheet 1\"")
+  columns.fail("it is not XDTS, the CSV of TVPaint, Krita or Clip Studio, OCA, .kra, or celspan's "
+    .. "text, which begins with \"celspan sheet 1\"")
 end
 
 local function read_whole(path)
+  if path:lower():find "%.kra$" then return native.painting(path) end
   local names = native.folder(path)
   if names then
     local document = sheet_oca.document(names)

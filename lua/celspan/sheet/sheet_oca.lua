@@ -40,14 +40,15 @@ local function frame_of(object, what, name, default, least)
 end
 
 --- The name of a drawing, or false for an empty one.
-local function drawing_of(frame, what)
+function sheet_oca.drawing(frame, what)
   local name, file = get(frame, what, "name", ""), get(frame, what, "fileName", "")
   if file == "" or name == "_blank" then return false end
   if name ~= "" then return name end
   return file:gsub("\\", "/"):match "[^/]*$":gsub("%.%w+$", "")
 end
 
-local function read_frames(column, layer, what, start)
+--- Reads the frames of a layer into a column. start: the first frame of the document.
+function sheet_oca.expose(column, layer, what, start)
   local list = {}
   for i, frame in ipairs(get(layer, what, "frames", {})) do
     local here = ("%s: frame %d"):format(what, i)
@@ -55,7 +56,8 @@ local function read_frames(column, layer, what, start)
       columns.fail("%s must be an object, got %s", here, fields.kind(frame))
     end
     list[i] = { frame = frame_of(frame, here, "frameNumber", 0, -columns.most_frames) - start + 1,
-                length = frame_of(frame, here, "duration", 1, 0), name = drawing_of(frame, here) }
+                length = frame_of(frame, here, "duration", 1, 0),
+                name = sheet_oca.drawing(frame, here) }
   end
   columns.sort(list)
   if not get(layer, what, "animated", true) then
@@ -90,9 +92,17 @@ local function read_layers(state, list, folder, where)
         blend = get(layer, what, "blendingMode", "normal"),
         visible = get(layer, what, "visible", true) and not get(layer, what, "reference", false) }
       state.layers[#state.layers + 1] = column
-      read_frames(column, layer, what, state.start)
+      sheet_oca.expose(column, layer, what, state.start)
     end
   end
+end
+
+--- The frames a second of a document, its first frame and its last one.
+function sheet_oca.clip(document)
+  local what = "the document"
+  return { fps = number_of(document, what, "frameRate", 24, 1e-3, 1000),
+           from = frame_of(document, what, "startTime", 0, -columns.most_frames),
+           to = frame_of(document, what, "endTime", 240, -columns.most_frames) - 1 }
 end
 
 --- Raises { message = }.
@@ -102,16 +112,14 @@ function sheet_oca.decode(text)
   if type(document) ~= "table" or type(document.layers) ~= "table" then
     columns.fail("it is not an OCA document: it has no list of layers")
   end
-  local what = "the document"
-  local start = frame_of(document, what, "startTime", 0, -columns.most_frames)
-  local stop = frame_of(document, what, "endTime", 240, -columns.most_frames)
-  local state = { layers = {}, start = start }
+  local what, clip = "the document", sheet_oca.clip(document)
+  local state = { layers = {}, start = clip.from }
   read_layers(state, document.layers, "", "")
   return { name = get(document, what, "name", ""), layers = state.layers, notes = {},
-           fps = number_of(document, what, "frameRate", 24, 1e-3, 1000),
+           fps = clip.fps,
            width = number_of(document, what, "width", 1920, 1, columns.most_pixels),
            height = number_of(document, what, "height", 1080, 1, columns.most_pixels),
-           frames = columns.length(math.max(1, stop - start), state.layers, {}) }
+           frames = columns.length(math.max(1, clip.to - clip.from + 1), state.layers, {}) }
 end
 
 --- The document among the files of an OCA folder; nil: there is none.

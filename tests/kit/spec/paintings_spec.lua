@@ -733,8 +733,6 @@ describe("a Krita document", function()
     local plain = read(paintings.krita { w = 12, h = 10,
       layers = { layer_of { attributes = ' passthrough="1"' } } })
     assert.are.equal("normal", plain[1].blend)
-    assert.are.same({ "ink: animation: its first drawing is shown" },
-      attributes ' keyframes="ink.keyframes.xml"')
     local masked = paintings.krita { w = 12, h = 10,
       layers = { layer_of { inside = '<masks><mask/><mask nodetype="filtermask"/></masks>' } } }
     assert.are.same({ 'ink: has a "mask": it changes nothing here',

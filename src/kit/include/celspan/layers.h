@@ -31,10 +31,28 @@ typedef struct celspan_painting_layer {
 CELSPAN_RESULT(celspan_painting_layer)
 #define CELSPAN_PAINTING_LAYER (celspan_painting_layer_initial())
 
+/* A key of a layer of a Krita document that moves: from its frame on the layer, which is a group
+ * of drawings, shows one of them, or has an opacity. */
+typedef struct celspan_painting_key {
+  size_t struct_size;
+  size_t layer;   /* its place */
+  int32_t frame;  /* as Krita counts, from 0; keys of a layer ascend */
+  int32_t colour; /* the number of the label that the key has in Krita, 0: none */
+  bool is_opacity;
+  size_t drawing;      /* the place of the drawing that is shown, if this is no key of an opacity */
+  double opacity;      /* 0..1 */
+  const char *between; /* to the next key of an opacity: "constant", "linear" or "bezier" */
+  double in[2], out[2]; /* handles of a curve, from the key: frames, and shares of opacity */
+} celspan_painting_key;
+
+CELSPAN_RESULT(celspan_painting_key)
+#define CELSPAN_PAINTING_KEY (celspan_painting_key_initial())
+
 /* file: borrowed      out: new
  * Errors: INPUT for a file that is missing, damaged or of another format, with the byte or line;
- * LIMIT for more than 65,536 layers, groups more than 100 deep, pictures of more than 1,048,576
- * pixels a side or 268,435,456 in all, XML of more than 16 MiB; NO_MEMORY, BAD_ARGUMENT. */
+ * LIMIT for more than 65,536 layers and drawings, a million keys, groups more than 100 deep,
+ * pictures of more than 1,048,576 pixels a side or 268,435,456 in all, XML of more than 16 MiB;
+ * NO_MEMORY, BAD_ARGUMENT. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_painting_read(celspan_context *context,
                                                                  const char *file,
                                                                  celspan_painting **out);
@@ -55,6 +73,14 @@ CELSPAN_API bool celspan_painting_layer_at(const celspan_painting *painting, siz
 CELSPAN_API size_t celspan_painting_note_count(const celspan_painting *painting);
 CELSPAN_API const char *celspan_painting_note_at(const celspan_painting *painting, size_t index,
                                                  size_t *layer);
+/* The frames of a painting that moves: how many a second, and the first and the last of them, as
+ * Krita counts. false, and nothing is changed: it does not move. */
+CELSPAN_API bool celspan_painting_clip(const celspan_painting *painting, double *rate,
+                                       int32_t *from, int32_t *to);
+CELSPAN_API size_t celspan_painting_key_count(const celspan_painting *painting);
+/* false, and *out is unchanged: there is no such key, or *out has no size. */
+CELSPAN_API bool celspan_painting_key_at(const celspan_painting *painting, size_t index,
+                                         celspan_painting_key *out);
 
 #ifdef __cplusplus
 }

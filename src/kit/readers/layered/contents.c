@@ -93,6 +93,18 @@ celspan_status cs_contents_note_own(celspan_context *context, celspan_painting *
   return CELSPAN_OK;
 }
 
+celspan_status cs_contents_add_key(celspan_context *context, const cs_input *input,
+                                   celspan_painting *painting, cs_contents_key **out) {
+  if (painting->key_count == CS_CONTENTS_KEYS)
+    return cs_input_fail(context, input, -1, CELSPAN_LIMIT,
+                         "has more than %d keys, which is the limit", CS_CONTENTS_KEYS);
+  CS_TRY(CS_RESERVE(context, painting->keys, painting->key_capacity, painting->key_count + 1));
+  *out = &painting->keys[painting->key_count++];
+  **out = (cs_contents_key){.fields = CELSPAN_PAINTING_KEY};
+  (*out)->fields.layer = cs_contents_last(painting);
+  return CELSPAN_OK;
+}
+
 static size_t mirror(const celspan_painting *painting, size_t index) {
   return index == CS_CONTENTS_NONE ? index : painting->count - 1 - index;
 }
@@ -107,6 +119,11 @@ void cs_contents_reverse(celspan_painting *painting) {
     painting->layers[i].parent = mirror(painting, painting->layers[i].parent);
   for (size_t i = 0; i < painting->note_count; i++)
     painting->notes[i].layer = mirror(painting, painting->notes[i].layer);
+  for (size_t i = 0; i < painting->key_count; i++) {
+    celspan_painting_key *key = &painting->keys[i].fields;
+    key->layer = mirror(painting, key->layer);
+    key->drawing = mirror(painting, key->drawing);
+  }
 }
 
 /* ---------------------------------------------------------------- limits */

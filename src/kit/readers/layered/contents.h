@@ -8,7 +8,8 @@
  * INVARIANT: parents are greater than their layers, at most CS_CONTENTS_DEPTH groups lie in one
  * another, no layer has more than CS_CONTENTS_PIXELS pixels, and all layers together have at most
  * CS_CONTENTS_PIXELS_ALL, also if they show the same file. While a painting is read a layer
- * owns its source; the layers of a painting that is complete have surfaces instead.
+ * owns its source; the layers of a painting that is complete have surfaces instead. The keys of a
+ * layer ascend in their frames, those of its drawings and those of its opacity each by themselves.
  */
 #pragma once
 
@@ -16,6 +17,7 @@
 #include "readers/layered/rows.h"
 
 #define CS_CONTENTS_LAYERS 65536
+#define CS_CONTENTS_KEYS 1000000
 #define CS_CONTENTS_DEPTH 100
 #define CS_CONTENTS_SIDE 1048576
 #define CS_CONTENTS_PIXELS ((int64_t)1 << 28)
@@ -44,6 +46,13 @@ typedef struct cs_contents_layer {
   celspan_surface *surface; /* a reference */
 } cs_contents_layer;
 
+typedef struct cs_contents_key {
+  celspan_painting_key fields; /* complete when the painting is */
+  /* while a Krita document is read: where the pixels of the drawing are, and its offset */
+  const struct cs_zip_member *member;
+  int32_t x, y;
+} cs_contents_key;
+
 typedef struct cs_contents_remark {
   size_t layer; /* CS_CONTENTS_NONE: the whole painting */
   /* the note is about the pixels of the layer alone; it does not matter if layers are composed */
@@ -59,6 +68,10 @@ struct celspan_painting {
   size_t count, capacity;
   cs_contents_remark *notes;
   size_t note_count, note_capacity;
+  cs_contents_key *keys;
+  size_t key_count, key_capacity;
+  double rate; /* frames a second; 0: nothing moves */
+  int32_t from, to;
   struct cs_profile_table *tables[CS_PROFILES_MOST]; /* references; kept until surfaces are made */
   size_t table_count;
 };
@@ -71,6 +84,11 @@ CELSPAN_CHECKED celspan_status cs_contents_create(celspan_context *context, cels
 CELSPAN_CHECKED celspan_status cs_contents_add(celspan_context *context, const cs_input *input,
                                                celspan_painting *painting, const char *name,
                                                size_t size, cs_contents_layer **out);
+/* Appends a key of the layer added last, with an opacity of 1. Its address is valid until the next
+ * one is added. Errors: LIMIT, NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_contents_add_key(celspan_context *context, const cs_input *input,
+                                                   celspan_painting *painting,
+                                                   cs_contents_key **out);
 /* The layer added last. */
 static inline size_t cs_contents_last(const celspan_painting *painting) {
   return painting->count - 1;

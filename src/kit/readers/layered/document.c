@@ -127,17 +127,29 @@ static bool on_text(void *user, const char *bytes, size_t size, uint64_t line) {
   return true;
 }
 
-static celspan_status parse(cs_document *document, const char *bytes, size_t size) {
+static celspan_status parse(cs_document *document, const cs_zip_member *member) {
   const cs_document_format *format = document->format;
   const cs_xml_handler handler = {on_start, on_end, on_text, document, format->depth};
   char name[CS_ERROR_SIZE / 2];
+  unsigned char *bytes;
+  size_t size;
+  CS_TRY(cs_zip_load(document->context, document->input, member, CS_DOCUMENT_BYTES, &bytes, &size));
   snprintf(name, sizeof name, "%s: %s", document->input->path, format->member);
-  CS_TRY(cs_xml_parse(document->context, name, format->purpose, bytes, size, &handler,
-                      &document->status));
-  if (!document->has_size)
-    return cs_document_fail(document, CELSPAN_INPUT, "does not declare the size of the painting");
-  cs_contents_reverse(document->painting);
-  return CELSPAN_OK;
+  celspan_status status = cs_xml_parse(document->context, name, format->purpose,
+                                       (const char *)bytes, size, &handler, &document->status);
+  cs_mem_free(document->context->memory, bytes, size + 1);
+  return status;
+}
+
+celspan_status cs_document_read_member(cs_document *document, const cs_zip_member *member,
+                                       const cs_document_format *format) {
+  const cs_document_format own = {member->name, document->format->purpose, format->start,
+                                  format->end, document->format->depth};
+  cs_document inner = *document;
+  inner.format = &own;
+  CS_TRY(parse(&inner, member));
+  document->scanned = inner.scanned;
+  return cs_document_scan(document, member->unpacked);
 }
 
 celspan_status cs_document_read(celspan_context *context, const cs_input *input, const cs_zip *zip,
@@ -148,11 +160,9 @@ celspan_status cs_document_read(celspan_context *context, const cs_input *input,
                           .painting = painting,
                           .format = format,
                           .group = CS_CONTENTS_NONE};
-  unsigned char *bytes;
-  size_t size;
-  CS_TRY(cs_zip_load(context, input, cs_zip_find(zip, format->member), CS_DOCUMENT_BYTES, &bytes,
-                     &size));
-  celspan_status status = parse(&document, (const char *)bytes, size);
-  cs_mem_free(context->memory, bytes, size + 1);
-  return status;
+  CS_TRY(parse(&document, cs_zip_find(zip, format->member)));
+  if (!document.has_size)
+    return cs_document_fail(&document, CELSPAN_INPUT, "does not declare the size of the painting");
+  cs_contents_reverse(painting);
+  return CELSPAN_OK;
 }

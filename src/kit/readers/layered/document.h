@@ -48,6 +48,8 @@ struct cs_document {
   bool has_size;      /* an element has given the size of the painting */
   char folder[256];   /* Krita: the folder in the archive that contains the layers */
   size_t unnamed;     /* OpenRaster: open stacks; the outermost one is the painting itself */
+  char channel;       /* Krita: of the keys: 'c'ontent, 'o'pacity, 0 for others */
+  double opaque;      /* Krita: what an opacity of 1 is in keys: 100 or 255 */
   int64_t scanned;    /* bytes of members that were unpacked */
   cs_profile profile; /* Krita: of the image */
 };
@@ -56,6 +58,12 @@ struct cs_document {
 CELSPAN_CHECKED celspan_status cs_document_read(celspan_context *context, const cs_input *input,
                                                 const cs_zip *zip, const cs_document_format *format,
                                                 celspan_painting *painting);
+/* Reads another member of the archive with the functions of `format`, while the document is read:
+ * its layers lie in the open group. purpose and depth are those of the document. Errors: INPUT,
+ * LIMIT, NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_document_read_member(cs_document *document,
+                                                       const cs_zip_member *member,
+                                                       const cs_document_format *format);
 /* The value of an attribute; NULL: it is not given. */
 const char *cs_document_text(const cs_document *document, const char *name);
 /* A number; the second function rounds it. *out does not change if the attribute is missing.

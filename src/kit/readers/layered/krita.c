@@ -1,15 +1,25 @@
 /* Krita documents: an archive of layers in tiles and maindoc.xml, which describes their order and
- * places. Layers whose pixels Krita computes (filters, fills, vectors, clones, files) are noted. */
+ * places. Layers whose pixels Krita computes (filters, fills, vectors, clones, files) are noted.
+ *
+ * An animated layer names a member with its keys, and becomes a group of its drawings, rearmost the
+ * first, of which the first is visible:
+ *
+ *   frame     0         3              8            12
+ *   content   layer3    layer3.f1      layer3.f2    layer3.f1    the same drawing again: a clone
+ *   drawing   "1"       "2"            "3"          "2"
+ */
 #include "readers/layered/document.h"
 
 #include <stdio.h>
 #include <string.h>
 
 #include "common/blend_names.h"
+#include "inside/number.h"
 #include "readers/layered/krita_tiles.h"
 
 static bool is(const char *text, const char *word) { return text && strcmp(text, word) == 0; }
 
+/* A note on the layer added last. */
 static celspan_status note(cs_document *document, const char *sentence) {
   return cs_contents_note(document->context, document->painting,
                           cs_contents_last(document->painting), "%s", sentence);
@@ -134,29 +144,23 @@ static celspan_status read_default(cs_document *document, const char *name,
   return CELSPAN_OK;
 }
 
-static celspan_status read_pixels(cs_document *document, cs_contents_layer *layer) {
-  const char *name = cs_document_text(document, "filename");
+/* The pixels of the layer added last, of which x and y are the offset. name: of the member in the
+ * archive; profile: what its colour profile is named after. */
+static celspan_status read_member(cs_document *document, const cs_zip_member *member,
+                                  const char *name, const char *profile, cs_contents_layer *layer) {
   const char *space = cs_document_text(document, "colorspacename");
   cs_krita_tiles_form form = {.width = document->painting->width,
                               .height = document->painting->height};
-  if (!name || !cs_document_is_inside(name) || strchr(name, '/'))
-    return cs_document_fail(document, CELSPAN_INPUT,
-                            "filename is \"%.200s\"; it must name a layer of the archive",
-                            name ? name : "");
   if (!cs_krita_tiles_form_of(space ? space : "RGBA", &form))
     return cs_contents_note(document->context, document->painting,
                             cs_contents_last(document->painting),
                             "pixels in the colour space %.40s: it is empty", space);
-  const cs_zip_member *member = find_member(document, name, "");
-  if (!member)
-    return cs_document_fail(document, CELSPAN_INPUT,
-                            "filename is \"%.200s\", which is not in the archive", name);
   CS_TRY(read_default(document, name, &form));
   int32_t x = layer->x, y = layer->y;
   form.x = -x;
   form.y = -y;
   cs_rows_source *source = NULL;
-  CS_TRY(read_layer_profile(document, name, layer));
+  CS_TRY(read_layer_profile(document, profile, layer));
   CS_TRY(cs_krita_tiles_create(document->context, document->input, member, &form, &source));
   if (source)
     cs_contents_set_pixels(layer, x + form.x, y + form.y, source);
@@ -167,6 +171,170 @@ static celspan_status read_pixels(cs_document *document, cs_contents_layer *laye
                                   layer->y);
 }
 
+/* The member that an attribute names, in the folder of the layers. */
+static celspan_status named_member(cs_document *document, const char *attribute,
+                                   const cs_zip_member **out) {
+  const char *name = cs_document_text(document, attribute);
+  if (!name || !cs_document_is_inside(name) || strchr(name, '/'))
+    return cs_document_fail(document, CELSPAN_INPUT,
+                            "%s is \"%.200s\"; it must name a layer of the archive", attribute,
+                            name ? name : "");
+  *out = find_member(document, name, "");
+  return *out ? CELSPAN_OK
+              : cs_document_fail(document, CELSPAN_INPUT,
+                                 "%s is \"%.200s\", which is not in the archive", attribute, name);
+}
+
+static celspan_status read_pixels(cs_document *document, cs_contents_layer *layer) {
+  const cs_zip_member *member;
+  CS_TRY(named_member(document, "filename", &member));
+  const char *name = cs_document_text(document, "filename");
+  return read_member(document, member, name, name, layer);
+}
+
+/* ---------------------------------------------------------------- keys */
+
+static celspan_status read_opacity(cs_document *document, celspan_painting_key *key) {
+  static const char *const ways[] = {"constant", "linear", "bezier"};
+  const char *between = cs_document_text(document, "interpolation");
+  key->is_opacity = true;
+  for (size_t i = 0; i < sizeof ways / sizeof *ways; i++)
+    if (is(between, ways[i]))
+      key->between = ways[i];
+  key->opacity = document->opaque;
+  CS_TRY(cs_document_number(document, "value", 0, document->opaque, &key->opacity));
+  key->opacity /= document->opaque;
+  return CELSPAN_OK;
+}
+
+static celspan_status start_key(cs_document *document) {
+  const celspan_painting *painting = document->painting;
+  celspan_painting_key last = {.layer = CS_CONTENTS_NONE};
+  bool is_opacity = document->channel == 'o';
+  cs_contents_key *key;
+  if (painting->key_count > 0)
+    last = painting->keys[painting->key_count - 1].fields;
+  CS_TRY(cs_contents_add_key(document->context, document->input, document->painting, &key));
+  CS_TRY(cs_document_whole(document, "time", &key->fields.frame));
+  CS_TRY(cs_document_whole(document, "color-label", &key->fields.colour));
+  if (last.layer == key->fields.layer && last.is_opacity == is_opacity &&
+      last.frame >= key->fields.frame)
+    return cs_document_fail(document, CELSPAN_INPUT, "the key of frame %d follows that of frame %d",
+                            (int)key->fields.frame, (int)last.frame);
+  return is_opacity ? read_opacity(document, &key->fields)
+                    : named_member(document, "frame", &key->member);
+}
+
+static celspan_status read_handle(cs_document *document, double handle[2]) {
+  double farthest = (double)CS_CONTENTS_FARTHEST;
+  CS_TRY(cs_document_number(document, "x", -farthest, farthest, &handle[0]));
+  CS_TRY(cs_document_number(document, "y", -farthest, farthest, &handle[1]));
+  handle[1] /= document->opaque;
+  return CELSPAN_OK;
+}
+
+static celspan_status start_in_keys(cs_document *document, const char *name) {
+  celspan_painting *painting = document->painting;
+  if (is(name, "channel")) {
+    const char *channel = cs_document_text(document, "name");
+    document->channel = is(channel, "content") || is(channel, "opacity") ? channel[0] : 0;
+  }
+  if (document->channel && is(name, "keyframe"))
+    return start_key(document);
+  if (!document->channel || painting->key_count == 0)
+    return CELSPAN_OK;
+  cs_contents_key *key = &painting->keys[painting->key_count - 1];
+  if (is(name, "offset")) {
+    CS_TRY(cs_document_whole(document, "x", &key->x));
+    return cs_document_whole(document, "y", &key->y);
+  }
+  if (is(name, "leftTangent"))
+    return read_handle(document, key->fields.in);
+  return is(name, "rightTangent") ? read_handle(document, key->fields.out) : CELSPAN_OK;
+}
+
+static celspan_status end_in_keys(cs_document *document, const char *name) {
+  (void)document, (void)name;
+  return CELSPAN_OK;
+}
+
+/* Adds the drawing of a key to the open group. number: what it is called. */
+static celspan_status add_drawing(cs_document *document, size_t place, size_t number) {
+  celspan_painting *painting = document->painting;
+  cs_contents_key key = painting->keys[place];
+  cs_contents_layer *drawing;
+  char text[24];
+  int size = snprintf(text, sizeof text, "%zu", number);
+  CS_TRY(
+      cs_contents_add(document->context, document->input, painting, text, (size_t)size, &drawing));
+  drawing->parent = document->group;
+  drawing->is_visible = number == 1;
+  drawing->x = key.x;
+  drawing->y = key.y;
+  return read_member(document, key.member, strrchr(key.member->name, '/') + 1,
+                     cs_document_text(document, "filename"), drawing);
+}
+
+/* What is known of a member: the first key that shows it, from 1, and the place of its drawing. */
+typedef struct shown {
+  size_t key, drawing;
+} shown;
+
+/* Adds the drawings of the layer's keys from `first` on, the last one first; known: by member. */
+static celspan_status add_drawings(cs_document *document, size_t first, shown *known) {
+  celspan_painting *painting = document->painting;
+  const cs_zip_member *members = document->zip->members;
+  size_t number = 0;
+  for (size_t i = first; i < painting->key_count; i++)
+    if (painting->keys[i].member && !known[painting->keys[i].member - members].key) {
+      known[painting->keys[i].member - members].key = i + 1;
+      number++;
+    }
+  for (size_t i = painting->key_count; i-- > first;)
+    if (painting->keys[i].member && known[painting->keys[i].member - members].key == i + 1) {
+      CS_TRY(add_drawing(document, i, number--));
+      known[painting->keys[i].member - members].drawing = cs_contents_last(painting);
+    }
+  for (size_t i = first; i < painting->key_count; i++)
+    if (painting->keys[i].member)
+      painting->keys[i].fields.drawing = known[painting->keys[i].member - members].drawing;
+  return CELSPAN_OK;
+}
+
+/* Reads the keys of the layer added last. */
+static celspan_status read_keys(cs_document *document) {
+  static const cs_document_format format = {.start = start_in_keys, .end = end_in_keys};
+  const cs_zip_member *member;
+  CS_TRY(named_member(document, "keyframes", &member));
+  return cs_document_read_member(document, member, &format);
+}
+
+/* Whether one of the keys shows a drawing. */
+static bool has_drawings(const celspan_painting *painting, size_t first) {
+  for (size_t i = first; i < painting->key_count; i++)
+    if (painting->keys[i].member)
+      return true;
+  return false;
+}
+
+/* The drawings of the open layer, whose keys begin at `first`, in place of its pixels. */
+static celspan_status make_drawings(cs_document *document, size_t first) {
+  cs_memory *memory = document->context->memory;
+  size_t count = document->zip->count;
+  shown *known = cs_mem_array(memory, count, sizeof *known);
+  cs_contents_layer *layer = &document->painting->layers[document->group];
+  if (!known)
+    return cs_fail_memory(document->context);
+  memset(known, 0, count * sizeof *known);
+  layer->is_group = true;
+  layer->x = layer->y = 0;
+  celspan_status status = add_drawings(document, first, known);
+  cs_mem_free(memory, known, count * sizeof *known);
+  return status;
+}
+
+/* ---------------------------------------------------------------- elements */
+
 static celspan_status start_layer(cs_document *document) {
   const char *type = cs_document_text(document, "nodetype");
   cs_contents_layer *layer;
@@ -175,18 +343,33 @@ static celspan_status start_layer(cs_document *document) {
   CS_TRY(cs_document_add(document, true, &layer));
   layer->is_group = is_group;
   CS_TRY(read_common(document, layer));
+  CS_TRY(read_channels(document));
+  size_t first = document->painting->key_count;
+  if (cs_document_text(document, "keyframes"))
+    CS_TRY(read_keys(document));
   if (is_group) {
     layer->x = layer->y = 0;
-    return read_channels(document);
+    return CELSPAN_OK;
   }
   if (type && !is(type, "paintlayer"))
     return cs_contents_note(document->context, document->painting,
                             cs_contents_last(document->painting), "is a \"%.60s\": it is empty",
                             type);
-  CS_TRY(read_pixels(document, layer));
-  if (cs_document_text(document, "keyframes"))
-    CS_TRY(note(document, "animation: its first drawing is shown"));
-  return read_channels(document);
+  return has_drawings(document->painting, first) ? make_drawings(document, first)
+                                                 : read_pixels(document, layer);
+}
+
+/* <framerate value="24"/> <range from="0" to="100"/>, in <animation> */
+static celspan_status start_clip(cs_document *document, const char *name) {
+  celspan_painting *painting = document->painting;
+  if (is(name, "framerate"))
+    return cs_document_number(document, "value", 1e-3, 1000, &painting->rate);
+  CS_TRY(cs_document_whole(document, "from", &painting->from));
+  CS_TRY(cs_document_whole(document, "to", &painting->to));
+  return painting->from <= painting->to
+             ? CELSPAN_OK
+             : cs_document_fail(document, CELSPAN_INPUT, "the range from %d to %d has no frames",
+                                (int)painting->from, (int)painting->to);
 }
 
 static celspan_status start_mask(cs_document *document) {
@@ -197,14 +380,28 @@ static celspan_status start_mask(cs_document *document) {
                           "has a \"%.60s\": it changes nothing here", type ? type : "mask");
 }
 
+/* Since version 5 the keys of opacities are per cent; layers have codes as before. */
+static celspan_status start_document(cs_document *document) {
+  const char *version = cs_document_text(document, "kritaVersion");
+  double major = 0;
+  if (version)
+    cs_decimal_read(version, &major);
+  document->opaque = major >= 5 ? 100 : 255;
+  return CELSPAN_OK;
+}
+
 static celspan_status start(cs_document *document, const char *name) {
+  if (is(name, "DOC"))
+    return start_document(document);
   if (is(name, "IMAGE"))
     return start_image(document);
   if (is(name, "layer"))
     return document->has_size
                ? start_layer(document)
                : cs_document_fail(document, CELSPAN_INPUT, "a layer comes before the image");
-  return is(name, "mask") ? start_mask(document) : CELSPAN_OK;
+  if (is(name, "mask"))
+    return start_mask(document);
+  return is(name, "framerate") || is(name, "range") ? start_clip(document, name) : CELSPAN_OK;
 }
 
 static celspan_status end(cs_document *document, const char *name) {

@@ -282,6 +282,7 @@ static void destroy(celspan_painting *painting) {
   drop_tables(painting);
   cs_mem_free(memory, painting->layers, painting->capacity * sizeof *painting->layers);
   cs_mem_free(memory, painting->notes, painting->note_capacity * sizeof *painting->notes);
+  cs_mem_free(memory, painting->keys, painting->key_capacity * sizeof *painting->keys);
   cs_counted_free(memory, painting, sizeof *painting);
 }
 
@@ -330,4 +331,22 @@ const char *celspan_painting_note_at(const celspan_painting *painting, size_t in
   size_t place = painting->notes[index].layer;
   *layer = place == CS_CONTENTS_NONE ? painting->count : place;
   return painting->notes[index].text;
+}
+
+bool celspan_painting_clip(const celspan_painting *painting, double *rate, int32_t *from,
+                           int32_t *to) {
+  if (painting->rate <= 0)
+    return false;
+  *rate = painting->rate;
+  *from = painting->from;
+  *to = painting->to;
+  return true;
+}
+
+size_t celspan_painting_key_count(const celspan_painting *painting) { return painting->key_count; }
+
+bool celspan_painting_key_at(const celspan_painting *painting, size_t index,
+                             celspan_painting_key *out) {
+  return index < painting->key_count && CS_RESULT(NULL, "painting", celspan_painting_key,
+                                                  &painting->keys[index].fields, out) == CELSPAN_OK;
 }
