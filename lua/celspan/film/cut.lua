@@ -13,6 +13,7 @@ local celspan = require "celspan"
 local native = require "celspan.native"
 local ease = require "celspan.ease"
 local edges = require "celspan.edges"
+local edits = require "celspan.edits"
 local fields = require "celspan.fields"
 local keys = require "celspan.keys"
 local ordered = require "celspan.ordered"
@@ -46,17 +47,22 @@ end
 
 ---@class celspan.cut.transition
 ---@field seconds number
+---@field about table Its noun and settings, for edit lists
 local Transition = fields.class("celspan.cut.transition", "a transition",
   { parts = true, ease = true })
 
 --- A transition has `parts(a, b, u, size, step)`, which returns the exposures for two rostrums. One
---- rostrum may be nil at an end of the film. step: the change of u from frame to frame.
-local function transition(noun, seconds, curve, parts)
+--- rostrum may be nil at an end of the film. step: the change of u from frame to frame. settings:
+--- what the noun was called with.
+local function transition(noun, seconds, curve, parts, settings)
   fields.expect(fields.is_finite(seconds) and seconds > 0, seconds,
     "cut: %s takes seconds, a number above 0", noun)
   local good, eased = pcall(ease, curve or "linear")
   if not good then native.refuse(("cut: %s: %s"):format(noun, eased)) end
-  return setmetatable({ seconds = seconds, noun = noun, ease = eased, parts = parts }, Transition)
+  local about = { noun = noun, ease = type(curve) == "string" and curve or nil }
+  for name, value in pairs(settings or {}) do about[name] = value end
+  local made = { seconds = seconds, noun = noun, ease = eased, parts = parts, about = about }
+  return setmetatable(made, Transition)
 end
 
 --- Exposures of two shots with their shares; a shot may be nil.
@@ -99,7 +105,7 @@ function cut.fade(seconds, colour, curve)
     if share <= 0 then return celspan.rostrum { celspan.cel { ground } } end
     return celspan.rostrum { antialias = shot.antialias, celspan.cel {
       celspan.group { shot, ground:fade(1 - share), space = "srgb" } } }
-  end)
+  end, { colour = type(colour) == "string" and colour or nil })
 end
 
 --- Checks the settings of a transition: named fields and their ranges { least, most }.
@@ -130,7 +136,7 @@ function cut.wipe(settings)
       local low, high = edges.wipe(cos, sin, softness, u, size)
       return edges.together(a, b, a and edges.beside(a, cos, sin, low, high, size, false),
         b and edges.beside(b, cos, sin, low, high, size, true))
-    end)
+    end, settings)
   end
 end
 
@@ -152,7 +158,7 @@ function cut.iris(settings)
       local low, high = edges.iris(centre, softness, u, size)
       return edges.together(a, b, a and edges.around(a, centre, low, high, size, false),
         b and edges.around(b, centre, low, high, size, true))
-    end)
+    end, settings)
   end
 end
 
@@ -176,7 +182,7 @@ function cut.push(settings)
   return function(seconds, curve)
     return transition("push", seconds, curve, function(a, b, u, size)
       return edges.together(a, b, moved(a, -u, size), moved(b, 1 - u, size))
-    end)
+    end, settings)
   end
 end
 
@@ -450,6 +456,25 @@ function cut.retime(film, list, duration)
     frame = function(f) return film:at(number_at(f.index)) end,
   }
 end
+
+-- ---------------------------------------------------------------- edit lists
+
+--- Reads an edit list, .otio or .edl, as a film of films; or the animatic of a .storyboarder.
+---@param path string Relative to the caller's file, else to the script
+---@param films? table<string, celspan.film> By the names of clips, files or reels
+---@return celspan.film? film
+---@return celspan.cut.shots|string shots In the order of the film; or a message
+function cut.read(path, films) return edits.read(cut, path, films) end
+
+---@class celspan.cut.shots
+---@field [integer] celspan.cut.shot
+---@field skipped string[] Sentences about what the film does not show as the file says
+
+---@class celspan.cut.shot
+---@field name string
+---@field from number Seconds of the film; counted
+---@field to number Not counted
+---@field source { from: number, to: number } Seconds of its own film
 
 ---@class celspan.cut.part
 ---@field film celspan.film

@@ -6,7 +6,7 @@ local scenes = require "celspan.scenes"
 local shots = {}
 
 local MOST = 100 -- films that are kept
-local films = {} -- the last one made last: { frames =, shots =, into = }
+local films = {} -- the last one made last: { film =, frames =, shots =, into = }
 local is_marking = false
 local lone -- the shot that is seen alone in its transitions; nil: none is
 
@@ -14,12 +14,21 @@ local lone -- the shot that is seen alone in its transitions; nil: none is
 function shots.keep(film, list, segments)
   local into = {}
   for _, segment in ipairs(segments) do
-    if segment.between then into[segment.b or false] = segment.between.noun end
+    if segment.between then into[segment.b or false] = segment end
   end
   for i, shot in ipairs(list) do shot.label = shot.name or ("shot %d"):format(i) end
   if #films == MOST then table.remove(films, 1) end
-  films[#films + 1] = { frames = film.frames, shots = list, into = into }
+  films[#films + 1] = { film = film, frames = film.frames, shots = list, into = into }
   return film
+end
+
+--- What is kept of a film: { shots =, into = }, where `into` has the segments of transitions by the
+--- shot after them, or false for the end; nil: it was not cut.
+function shots.of(film)
+  for i = #films, 1, -1 do
+    local one = films[i] -- a film that is changed by film:with has the same function
+    if one.film.frame == film.frame and one.frames == film.frames then return one end
+  end
 end
 
 --- Whether the frames of shots are marked from now on: "on" or "off".
@@ -67,9 +76,10 @@ end
 function shots.text(frames)
   local one, list = film_of(frames), {}
   for i, shot in ipairs(one and one.shots or {}) do
+    local into = one.into[shot]
     list[i] = { { "name", shot.label }, { "from", shot.start + 1 },
                 { "to", shot.start + shot.count }, { "before", shot.before },
-                { "after", shot.after }, { "into", one.into[shot] or "" } }
+                { "after", shot.after }, { "into", into and into.between.noun or "" } }
   end
   return one and json.encode { list = list } or ""
 end

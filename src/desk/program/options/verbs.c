@@ -329,9 +329,11 @@ static const cs_option TILES[] = {
     {0}};
 
 static const cs_option SHEET[] = {
-    OUTPUT("OUT",
-           "shot.xdts, shot.csv (TVPaint, Krita) or shot.txt; default: text on standard output"),
+    OUTPUT("OUT", "shot.xdts, shot.csv (TVPaint, Krita) or shot.txt, or an edit list, cut.otio or "
+                  "cut.edl; default: text on standard output"),
     FRAMES,
+    {"--media", "NAME", &cs_argument_text,
+     "the file of each shot in an edit list, with {name} for its name, as in shots/{name}.mov"},
     JSON,
     SCRIPT,
     {0}};

@@ -232,13 +232,14 @@ static int check_tracks(lua_State *L) {
 
 /* ---------------------------------------------------------------- the state of the script */
 
-/* Runs protected. The names of a module and of a function in it, and an argument -> the result of
- * the function */
+/* Runs protected. The names of a module and of a function in it, an argument and the film -> the
+ * result of the function for these two */
 static int ask_module(lua_State *L) {
   cs_require_module(L, lua_touserdata(L, 1));
   lua_getfield(L, -1, lua_touserdata(L, 2));
   lua_pushstring(L, lua_touserdata(L, 3));
-  lua_call(L, 1, 1);
+  lua_pushvalue(L, 4);
+  lua_call(L, 2, 1);
   return 1;
 }
 
@@ -255,7 +256,8 @@ static int ask_by(lua_State *L, lua_CFunction asking) {
   lua_pushcfunction(script, asking);
   for (int i = 2; i <= 4; i++)
     lua_pushlightuserdata(script, (void *)luaL_checkstring(L, i));
-  int outcome = lua_pcall(script, 3, 1, 0);
+  lua_pushvalue(script, CS_SCRIPT_FILM);
+  int outcome = lua_pcall(script, 4, 1, 0);
   if (outcome != LUA_OK)
     cs_service_try(L, cs_lua_error_report(script, outcome));
   size_t size;

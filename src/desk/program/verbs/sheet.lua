@@ -1,9 +1,13 @@
---- celspan sheet FILE|SCRIPT: an exposure sheet, or the sheet of a film, as text or converted.
+--- celspan sheet FILE|SCRIPT: an exposure sheet, or the sheet of a film, as text or converted; or
+--- the edit list of a film.
 local program, request = ...
+local files = require "celspan.files"
+local json = require "celspan.json"
 local ordered = require "celspan.ordered"
 local sheet = require "celspan.sheet"
 
 local input, output = request[1], request.output
+local is_edit = output and program.has_ending(output, ".otio", ".edl")
 local is_script = request.script or program.has_ending(input, ".lua")
 
 --- The marks of a layer, in the order of the frames.
@@ -29,8 +33,25 @@ local function facts_of(made)
            layers = { list = layers }, notes = { list = made.notes } }
 end
 
-if output and output ~= "-" and not program.has_ending(output, ".xdts", ".csv", ".txt") then
-  program.usage("-o: '%s' must end in .xdts, .csv or .txt", output)
+--- Writes the edit list of a film.
+local function write_edit(script)
+  local folders = output:find "^/" and "" or output:gsub("[^/]*$", ""):gsub("%./", "")
+  local text = script:ask("celspan.edits", "text", json.encode({ form = output:lower():match "%w+$",
+    media = request.media, up = folders:gsub("[^/]+/+", "../") }, { plain = true }))
+  if text:find "^-" then program.fail("input", "%s: %s", output, text:sub(2)) end
+  local list = { write = function(_, path) return files.write(path, text:sub(2)) end }
+  return program.put(list, output, request[1])
+end
+
+if output and output ~= "-" and not is_edit
+  and not program.has_ending(output, ".xdts", ".csv", ".txt") then
+  program.usage("-o: '%s' must end in .xdts, .csv, .txt, .otio or .edl", output)
+end
+if is_edit and (request.frames or not is_script) then
+  program.usage("-o: %s is an edit list, which is made of a script, of all its frames", output)
+end
+if request.media and not is_edit then
+  program.usage "--media goes with an edit list: -o cut.otio or cut.edl"
 end
 if output and request.json then program.usage("--json goes to standard output: leave -o out") end
 if request.frames and not is_script then
@@ -39,6 +60,7 @@ end
 if not is_script then program.refuse_rights() end
 
 local script = is_script and program.script()
+if is_edit then return write_edit(script) end
 if script then script:kept("celspan.shots", "mark", "on") end -- the parts of a shot have its name
 local made = script and sheet.of(script, request.frames and { frames = script:numbers() })
   or program.input(sheet.read(input))
