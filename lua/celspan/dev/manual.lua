@@ -9,7 +9,7 @@ local manual = {}
 --- The modules for scripts, in the order of the reference.
 manual.MODULES = {
   "ease", "keys", "motion", "multiplane", "shutter", "lips", "sheet", "svg", "trace", "track",
-  "relight", "layers", "oca", "json", "csv", "captions", "cut", "sound", "spec", "puppet",
+  "relight", "ink", "layers", "oca", "json", "csv", "captions", "cut", "sound", "spec", "puppet",
   "particles", "colour", "chart", "typewriter", "lottie",
 }
 local WIDTH = 100
@@ -220,6 +220,15 @@ end
 
 local cached
 
+--- The text of a module, with those of the private modules that it loads when they are used.
+local function whole_source(name)
+  local text = native.source(name)
+  for part in text:gmatch('= "(' .. name .. '_[%w_]+)"') do
+    text = text .. "\n" .. native.source(part)
+  end
+  return text
+end
+
 --- All blocks: those of celspan as a list, and those of each module in its field `modules`:
 --- { [1] = block, ..., modules = { keys = {...} } }.
 local function blocks_of_all()
@@ -227,7 +236,7 @@ local function blocks_of_all()
   cached = manual.read(manual.annotations(), { celspan = "celspan" })
   cached.modules = {}
   for _, name in ipairs(manual.MODULES) do
-    cached.modules[name] = manual.read(native.source(name), { [name] = "celspan." .. name })
+    cached.modules[name] = manual.read(whole_source(name), { [name] = "celspan." .. name })
   end
   return cached
 end

@@ -8,6 +8,9 @@
 --                                   night = { sky = "#101a33", roof = "#3c2430" } }
 --   palette:at "day".sky      palette:between("day", "night", u).roof
 --
+--   local day = colour.palette "day.gpl"      -- a set of a file, { sky = "#9bd1ff", ... }
+--   colour.palette{ day = day, night = "night.kpl" }
+--
 -- Oklab: Björn Ottosson, "A perceptual color space for image processing", 2020, from linear sRGB.
 local celspan = require "celspan"
 local native = require "celspan.native"
@@ -154,13 +157,28 @@ local function check_names(name, colours, names)
   end
 end
 
---- Sets of colours that can be exchanged: each has the same names.
----@param sets table<string, table<string, celspan.colour>>
----@return celspan.colour.palette
+local function set_of_file(path)
+  local set, message = require "celspan.palette_files".read(path)
+  return set or native.refuse("colour: palette: " .. message)
+end
+
+--- A copy of the sets, in which the names of files are replaced by the colours in them.
+local function opened(sets)
+  local copy = {}
+  for name, set in next, sets do copy[name] = type(set) == "string" and set_of_file(set) or set end
+  return copy
+end
+
+--- Sets of colours that can be exchanged: each has the same names. A set is a table of colours by
+--- name, or the name of a file: .gpl, .kpl, .ase, .aco, .tpl or .json. A file alone is its set.
+---@param sets string|table<string, string|table<string, celspan.colour>>
+---@return celspan.colour.palette|table<string, string>
 function colour.palette(sets)
+  if type(sets) == "string" then return set_of_file(sets) end
   if type(sets) ~= "table" or next(sets) == nil then
     refuse("palette takes sets of colours by name, such as { day = { sky = \"#9bd1ff\" } }")
   end
+  sets = opened(sets)
   local list, names = {}, nil
   for name in next, sets do list[#list + 1] = tostring(name) end
   table.sort(list)

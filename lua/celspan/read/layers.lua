@@ -198,6 +198,30 @@ local function make_tree(list, width, height, skipped, options)
   return complete_tree(list, width, height, skipped, options.space)
 end
 
+--- A copy of a layer whose objects were changed by a function.
+local function changed(entry, change)
+  local copy, source = setmetatable({}, Entry), {}
+  for name, value in next, entry do copy[name] = value end
+  for name, value in next, sources[entry] do source[name] = value end
+  sources[copy] = source
+  if entry.children then
+    copy.children = {}
+    for i, child in ipairs(entry.children) do copy.children[i] = changed(child, change) end
+    copy.object = composed({ children = copy.children, blend = entry.blend, mask = source.mask },
+      source.space):named(source.name)
+  else
+    copy.object = change(entry.object)
+  end
+  return copy
+end
+
+--- For ink.recolour: the tree with other layers.
+function Tree.__recolour(tree, change)
+  local list = {}
+  for i, entry in ipairs(tree) do list[i] = changed(entry, change) end
+  return complete_tree(list, tree.width, tree.height, tree.skipped, spaces[tree])
+end
+
 -- ---------------------------------------------------------------- paintings
 
 --- The mask of a group of a painting, in the size of the painting.

@@ -12,7 +12,7 @@ words.list = {
   -- words that have one meaning, and the places where they may be used
   { word = "cel", means = "a sheet of artwork on the rostrum",
     places = { "model/scene/", "frames/", "writers/", "engine/defocus/", "engine/row/plan",
-               "tools/relight/", "lua/", "program/" } },
+               "tools/relight/", "tools/recolour/values", "lua/", "program/" } },
   { word = "cell", means = "what lies between two neighbouring boundaries of a row",
     places = { "engine/compose/", "engine/paint/", "engine/area/", "engine/kernel/",
                "engine/row/", "engine/map/", "writers/record/", "engine/defocus/edges",

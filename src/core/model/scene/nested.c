@@ -61,3 +61,26 @@ celspan_status cs_nested_create(celspan_context *context, celspan_rostrum *rostr
   (*out)->mark = cs_mark_keep(rostrum->mark); /* this replaces a mark that has no name */
   return CELSPAN_OK;
 }
+
+static celspan_status fill_like(celspan_context *context, const cs_primitive_data *from,
+                                celspan_rostrum *rostrum, cs_primitive_data *data) {
+  CS_TRY(cs_primitive_data_fill_rostrum(context, data, rostrum, &from->bounds));
+  data->depth = from->depth;
+  if (!from->repeat)
+    return CELSPAN_OK;
+  CS_TRY(CS_MAKE(context, data->repeat, 1));
+  *data->repeat = *from->repeat;
+  return CELSPAN_OK;
+}
+
+celspan_status cs_nested_with(celspan_context *context, const celspan_object *object,
+                              celspan_rostrum *rostrum, celspan_object **out) {
+  cs_primitive_data *data;
+  celspan_object *plain;
+  CS_TRY(cs_primitive_data_create(context, CS_PRIMITIVE_DATA_ROSTRUM, NULL, &data));
+  celspan_status status = fill_like(context, object->data, rostrum, data);
+  CS_TRY(cs_primitive_data_wrap(context, data, status, &plain));
+  status = cs_primitive_data_replace(context, object, plain->data, out);
+  celspan_object_unref(plain);
+  return status;
+}

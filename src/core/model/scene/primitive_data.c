@@ -130,17 +130,24 @@ static void free_part(cs_primitive_data *data) {
   }
 }
 
+static void free_shape(cs_primitive_data *data) {
+  if (!data->is_box)
+    cs_outline_free_packed(data->outline, data->memory);
+  if (data->stroke)
+    cs_stroke_finish(data->stroke, data->memory);
+  cs_mem_free(data->memory, data->stroke, sizeof *data->stroke);
+}
+
 /* Recursion ends: nesting is at most CS_SCENE_DEPTH. */
 void cs_primitive_data_unref(cs_primitive_data *data) {
   if (!data || !cs_counted_drop(&data->references))
     return;
   cs_memory *memory = data->memory;
   free_part(data);
-  if (!data->is_box)
-    cs_outline_free_packed(data->outline, memory);
-  if (data->stroke)
-    cs_stroke_finish(data->stroke, memory);
-  cs_mem_free(memory, data->stroke, sizeof *data->stroke);
+  if (data->shape)
+    cs_primitive_data_unref(data->shape);
+  else
+    free_shape(data);
   celspan_texture_unref(data->texture);
   cs_mem_free(memory, data, sizeof *data);
   cs_memory_unref(memory);
@@ -315,6 +322,30 @@ celspan_status cs_primitive_data_replace(celspan_context *context, const celspan
                                          cs_primitive_data *data, celspan_object **out) {
   return create_object(context, data, object->matrix, object->fade, cs_mark_keep(object->mark),
                        out);
+}
+
+celspan_status cs_primitive_data_repaint(celspan_context *context, const celspan_object *object,
+                                         celspan_texture *texture, celspan_object **out) {
+  cs_primitive_data *from = object->data, *data;
+  celspan_object *plain;
+  CS_TRY(cs_primitive_data_create(context, CS_PRIMITIVE_DATA_OUTLINE, texture, &data));
+  data->shape = from->shape ? from->shape : from;
+  cs_counted_keep(&data->shape->references);
+  data->rule = from->rule;
+  data->is_empty = from->is_empty;
+  data->is_box = from->is_box;
+  data->piece_count = from->piece_count;
+  data->primitive_count = from->primitive_count;
+  data->bounds = from->bounds;
+  data->stroke = from->stroke;
+  if (from->is_box)
+    data->box = from->box;
+  else
+    data->outline = from->outline;
+  CS_TRY(cs_primitive_data_wrap(context, data, CELSPAN_OK, &plain));
+  celspan_status status = cs_primitive_data_replace(context, object, plain->data, out);
+  celspan_object_unref(plain);
+  return status;
 }
 
 celspan_status celspan_object_named(celspan_context *context, celspan_object *object,

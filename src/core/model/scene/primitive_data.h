@@ -51,6 +51,14 @@ CELSPAN_CHECKED celspan_status cs_primitive_data_replace(celspan_context *contex
                                                          cs_primitive_data *data,
                                                          celspan_object **out);
 
+/* *out: a primitive with an outline or a stroke, which both share from now on, in the same place,
+ * and with the same fade and mark, with another texture, which is no pattern. Errors: NO_MEMORY,
+ * LIMIT. */
+CELSPAN_CHECKED celspan_status cs_primitive_data_repaint(celspan_context *context,
+                                                         const celspan_object *object,
+                                                         celspan_texture *texture,
+                                                         celspan_object **out);
+
 /* A primitive with an outline of its own making, whose arrays are taken over (and freed on
  * failure). Every coordinate of it passes cs_number_is_sane. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_primitive_data_of_outline(celspan_context *context,
@@ -96,6 +104,12 @@ CELSPAN_CHECKED celspan_status cs_object_graded(celspan_context *context, celspa
  * beyond its frame. */
 CELSPAN_CHECKED celspan_status cs_nested_create(celspan_context *context, celspan_rostrum *rostrum,
                                                 double margin, celspan_object **out);
+
+/* *out: an object that is a rostrum, in its place and with its fade and mark, with another rostrum
+ * of the same size and depth. Errors: NO_MEMORY, LIMIT. */
+CELSPAN_CHECKED celspan_status cs_nested_with(celspan_context *context,
+                                              const celspan_object *object,
+                                              celspan_rostrum *rostrum, celspan_object **out);
 
 /* The names of the operators, in their order, and of mattes. */
 extern const char *const cs_boolean_words[];

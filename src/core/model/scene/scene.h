@@ -161,6 +161,8 @@ typedef struct cs_primitive_data {
   /* all kinds except BOOLEAN: own units; tight, but the bounds of a stroke only where tight
    * bounds can be seen */
   celspan_box bounds;
+  /* OUTLINE: the data whose stroke or outline this has, too, a reference; NULL: it owns them */
+  struct cs_primitive_data *shape;
   cs_stroke *stroke; /* OUTLINE, instead of an outline; else NULL. Owned */
   union {
     celspan_box box;     /* is_box. SCANLINE: its bounds; ROSTRUM: its frame */

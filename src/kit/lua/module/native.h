@@ -120,6 +120,17 @@ int cs_track_rewind(lua_State *L);
 /* (matrix) -> the inverse of nine numbers | nil */
 int cs_track_inverse(lua_State *L);
 
+/* ---------------------------------------------------------------- recolouring */
+
+/* ({ r, g, b, r, ... }, { r, g, b, ... } of the new colours, is_linear, is_strict) -> recolouring;
+ * the numbers are light */
+int cs_recolour_make(lua_State *L);
+/* (recolouring, object or texture) -> the value in the new colours; nil for another value */
+int cs_recolour_value(lua_State *L);
+/* (recolouring) -> the colours that it met and did not know: { { colour = "#rrggbb", count =,
+ * place = " 'hat' (shot.lua:4)" or "", and of a pixel x, y }, ... } */
+int cs_recolour_strange(lua_State *L);
+
 /* ---------------------------------------------------------------- relighting */
 
 /* A light field in Lua is {r, g, b}, and if it is uneven `terms`, three lists of nine numbers. */

@@ -1,0 +1,23 @@
+--- Ink and paint: the steps between a drawing and a cel. Each function is loaded when it is first
+-- read, so that a film pays for what it uses.
+--
+--   ink.recolour(hero, day, night)      -- a drawing in the colours of another palette
+local native = require "celspan.native"
+local fields = require "celspan.fields"
+
+local ink = {}
+
+--- The private modules, each of which returns its functions by their names here.
+local parts = { recolour = "ink_recolour" }
+
+local refuse = getmetatable(fields.seal("ink", ink)).__index
+
+getmetatable(ink).__index = function(module, name)
+  local own = type(name) == "string" and not parts[name] and native.synonym(name, true) or name
+  if not parts[own] then return refuse(module, name) end
+  local found = native.entry(require("celspan." .. parts[own])[own])
+  rawset(module, own, found)
+  return found
+end
+
+return ink

@@ -1,0 +1,138 @@
+--- Drawings in the colours of another palette: ink.recolour.
+local celspan = require "celspan"
+local native = require "celspan.native"
+local fields = require "celspan.fields"
+
+local ink = {}
+
+local known = { strict = "boolean", space = "string" }
+
+-- ---------------------------------------------------------------- colours
+
+--- The light of a colour, three numbers. Its alpha stays in a drawing, so it must not have one.
+local function light_of(name, value)
+  local read = type(value) == "userdata" and function() return value.pigment and value end
+  local good, paint = pcall(read or celspan.rgb, value)
+  if not good or not paint then
+    native.refuse(("ink: recolour: %s must be a colour, such as \"#f2c6a0\", got %s"):format(name,
+      type(value) == "string" and ("%q"):format(value) or fields.kind(value)))
+  end
+  fields.expect(paint.beta == 1, paint.beta, "ink: recolour: %s must have an alpha of 1", name)
+  return paint.pigment
+end
+
+--- The pairs of two palettes with the same names: { name, old, new }.
+local function by_names(from, to)
+  local pairs_of = {}
+  for name, old in next, from do
+    if to[name] == nil then
+      native.refuse(("ink: recolour: only the first palette has '%s'"):format(fields.key(name)))
+    end
+    pairs_of[#pairs_of + 1] = { fields.key(name), old, to[name] }
+  end
+  for name in next, to do
+    if from[name] == nil then
+      native.refuse(("ink: recolour: only the second palette has '%s'"):format(fields.key(name)))
+    end
+  end
+  return pairs_of
+end
+
+local function by_colours(map)
+  local pairs_of = {}
+  for old, new in next, map do pairs_of[#pairs_of + 1] = { fields.key(old), old, new } end
+  return pairs_of
+end
+
+--- The lights of old and of new colours as two lists. A colour may be twice if it becomes the same.
+local function lists_of(pairs_of)
+  if #pairs_of == 0 then native.refuse "ink: recolour: there are no colours" end
+  table.sort(pairs_of, function(a, b) return a[1] < b[1] end)
+  local from, to, seen = {}, {}, {}
+  for _, pair in ipairs(pairs_of) do
+    local name = ("'%s'"):format(pair[1])
+    local old, new = light_of(name, pair[2]), light_of("the new colour of " .. name, pair[3])
+    local key, value = table.concat(old, " "), table.concat(new, " ")
+    local other = seen[key]
+    if other and other[2] ~= value then
+      native.refuse(("ink: recolour: %s and %s are one colour, and become two"):format(other[1],
+        name))
+    elseif not other then
+      seen[key] = { name, value }
+      table.move(old, 1, 3, #from + 1, from)
+      table.move(new, 1, 3, #to + 1, to)
+    end
+  end
+  return from, to
+end
+
+-- ---------------------------------------------------------------- values
+
+local change
+
+--- The items of a list in the new colours, for :with.
+local function items_of(value, recolouring)
+  local items = {}
+  for i = 1, #value do items[i] = change(value[i], recolouring) end
+  return items
+end
+
+--- A copy of a table of drawings, or what its class makes of it.
+local function change_table(value, recolouring)
+  local class = getmetatable(value)
+  local own = class and rawget(class, "__recolour")
+  if own then return own(value, function(object) return change(object, recolouring) end) end
+  if class then return nil end
+  local copy = {}
+  for key, item in next, value do copy[key] = change(item, recolouring) or item end
+  return copy
+end
+
+function change(value, recolouring)
+  if type(value) == "table" then return change_table(value, recolouring) end
+  if type(value) ~= "userdata" then return nil end
+  local made, kind = native.recolour(recolouring, value), fields.kind(value)
+  if not made and (kind == "a cel" or kind == "a rostrum") then
+    made = #value > 0 and value:with(items_of(value, recolouring)) or value
+  end
+  return made
+end
+
+--- Whether a third argument is options and no palette.
+local function is_options(value)
+  for name in next, value do
+    if not known[name] then return false end
+  end
+  return true
+end
+
+--- A value in other colours. Alpha stays. In pictures, a pixel between two or three colours becomes
+--- the same mixture of the new ones; colours that are not named stay.
+---@generic T
+---@param value T An object, a cel, a rostrum, a picture, a tree of layers, or a table of these
+---@param from table<string, celspan.colour>|celspan.colour Colours by name, or new colours by old ones
+---@param to? table<string, celspan.colour>|celspan.colour The new colours by the same names
+---@param options? { strict?: boolean, space?: "srgb"|"linear" } strict: list what stays; space: how pixels are mixed, default "srgb"
+---@return T value
+---@return { colour: string, count: integer, place: string, x?: integer, y?: integer }[]? strange With strict: at most 256 colours, each with its first place
+function ink.recolour(value, from, to, options)
+  local is_map = type(from) == "table" and options == nil
+    and (to == nil or type(to) == "table" and is_options(to))
+  if is_map then
+    to, options = nil, to
+  elseif type(from) ~= "table" then
+    from, to = { from }, { to }
+  end
+  fields.expect_kind(type(from) == "table" and (to == nil or type(to) == "table"), to,
+    "ink: recolour takes two palettes, or a table of new colours by old ones")
+  options = fields.check("ink: recolour", options or {}, known)
+  fields.space("ink: recolour", options.space)
+  local old, new = lists_of(to and by_names(from, to) or by_colours(from))
+  local recolouring = native.recolouring(old, new, options.space == "linear", options.strict)
+  local made = change(value, recolouring)
+  fields.expect_kind(made ~= nil, value, "ink: recolour takes objects, cels, rostrums, pictures, "
+    .. "trees of layers, and tables of these")
+  return made, options.strict and native.strange(recolouring) or nil
+end
+
+return ink
