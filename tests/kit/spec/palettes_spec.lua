@@ -2,6 +2,7 @@
 local celspan = require "celspan"
 local colour = require "celspan.colour"
 local ink = require "celspan.ink"
+local layers = require "celspan.layers"
 local paintings = require "tests.support.paintings"
 
 local day = { skin = "#f2c6a0", hair = "#5a3424", shirt = "#c8402e", line = "#1c1420",
@@ -288,6 +289,22 @@ describe("recolouring", function()
     end
     local made = ink.recolour(all("#f2c6a0", "#5a342480"), day, night)
     assert.equal(drawn(all("#8a6a90", "#221a3a80")), drawn(made))
+  end)
+
+  it("reaches the layers of a painting", function()
+    local function tree_of(name, p)
+      assert(os.execute("mkdir " .. path(name)))
+      picture(name .. "/1.png", { celspan.circle { 60, 60, 30, texture = p.skin } }, 8)
+      picture(name .. "/2.png", { celspan.circle { 70, 60, 20, texture = p.hair } }, 8)
+      return assert(layers.read(path(name)))
+    end
+    local old, new = tree_of("old", day), tree_of("new", night)
+    local made = ink.recolour(old, day, night)
+    assert.equal("2", made:find "2".name)
+    for _, both in ipairs { { made.object, new.object }, { made[1].object, new[1].object } } do
+      assert.is_true(difference(codes({ both[1] }, 8), codes({ both[2] }, 8), 8) <= 1)
+    end
+    assert.equal(2, #made:cels())
   end)
 
   it("keeps what has no colour of the table", function()

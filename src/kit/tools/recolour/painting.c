@@ -47,18 +47,14 @@ static const cs_swatch *find(cs_painting *painting, const float rgba[4]) {
   return found ? found : &alone;
 }
 
-/* Returns whether most of what is visible has a colour of the table. */
-static bool find_exact(cs_painting *painting) {
-  size_t count = (size_t)painting->width * (size_t)painting->height, visible = 0, strange = 0;
+static void find_exact(cs_painting *painting) {
+  size_t count = (size_t)painting->width * (size_t)painting->height;
   painting->rounded = ROUNDED;
   for (size_t i = 0; i < count; i++) {
     const float *rgba = painting->rgba + 4 * i;
     bool is_known = i > 0 && is_same(rgba, rgba - 4);
     painting->exact[i] = is_known ? painting->exact[i - 1] : find(painting, rgba);
-    visible += painting->exact[i] != NULL;
-    strange += painting->exact[i] == &alone;
   }
-  return strange <= visible / 2;
 }
 
 /* Whether three neighbours of a pixel are like it: along an edge only two are. */
@@ -183,8 +179,6 @@ static bool mix(search *s, const float rgba[4], const double code[3]) {
 
 static void set(cs_painting *painting, float *rgba, const double to[3]) {
   double light[3];
-  if (painting->is_check)
-    return;
   cs_swatches_light(painting->swatches, to, light);
   for (int c = 0; c < 3; c++)
     rgba[c] = (float)(light[c] * (double)rgba[3]);
@@ -224,9 +218,9 @@ celspan_status cs_painting_recolour(celspan_context *context, cs_painting *paint
   size_t count = (size_t)painting->width * (size_t)painting->height;
   CS_TRY(CS_MAKE(context, painting->exact, count));
   order_around(painting);
-  bool is_painted = find_exact(painting) || !painting->is_check;
+  find_exact(painting);
   find_areas(painting);
-  for (int32_t y = 0; y < painting->height && is_painted; y++)
+  for (int32_t y = 0; y < painting->height; y++)
     for (int32_t x = 0; x < painting->width; x++)
       recolour(painting, x, y);
   cs_mem_free(context->memory, painting->exact, count * sizeof *painting->exact);

@@ -56,7 +56,7 @@ static void recolour_paint(cs_recolour *recolour, cs_paint *paint, bool *is_chan
   const cs_swatch *found = cs_swatches_find(&recolour->swatches, code, CS_PAINTING_WITHIN);
   if (!found && recolour->is_strict)
     note(recolour, code, -1, -1);
-  if (!found || recolour->is_check)
+  if (!found)
     return;
   cs_swatches_light(&recolour->swatches, found->to, light);
   for (int c = 0; c < 3; c++)
@@ -106,7 +106,6 @@ static celspan_status read_painting(cs_recolour *recolour, const cs_picture *pic
                     .height = unlit->height,
                     .rgba = unlit->paint,
                     .within = original.info.is_float ? CS_PAINTING_WITHIN_HALF : CS_PAINTING_WITHIN,
-                    .is_check = recolour->is_check,
                     .report = recolour->is_strict ? note : NULL,
                     .user = recolour};
   recolour->work += (int64_t)unlit->width * unlit->height;

@@ -29,7 +29,6 @@ typedef struct cs_recolour {
   celspan_context *context; /* for the calls */
   cs_swatches swatches;
   bool is_strict;      /* strange colours are listed */
-  bool is_check;       /* nothing is recoloured; a painting counts if most of it is of the table */
   cs_strange *strange; /* room for CS_STRANGE_MOST, if it is strict */
   size_t strange_count;
   int64_t work; /* pixels that were looked at */
