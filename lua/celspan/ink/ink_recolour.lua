@@ -66,6 +66,32 @@ local function lists_of(pairs_of)
   return from, to
 end
 
+-- ---------------------------------------------------------------- films
+
+local kept = {} -- the lights of the palettes of all films
+
+local function keep_set(set)
+  for name, value in next, set do
+    local light = light_of(("'%s'"):format(fields.key(name)), value)
+    table.move(light, 1, 3, #kept + 1, kept)
+  end
+end
+
+--- For celspan.film: keeps the colours of its palettes.
+function ink.keep(palettes)
+  fields.expect_kind(type(palettes) == "table", palettes, "film: field 'palettes' must be a list")
+  for i, palette in ipairs(palettes) do
+    fields.expect_kind(type(palette) == "table", palette,
+      "film: palettes[%d] must be a table of colours by name", i)
+    for _, set in next, getmetatable(palette) and rawget(palette, "sets") or { palette } do
+      keep_set(set)
+    end
+  end
+end
+
+--- For `celspan check`: these lights as 8-byte floats; "": there are none.
+function ink.kept() return ("<" .. ("d"):rep(#kept)):pack(table.unpack(kept)) end
+
 -- ---------------------------------------------------------------- values
 
 local change

@@ -393,6 +393,31 @@ end }]]
   end)
 end)
 
+describe("a film with palettes", function()
+  it("is checked for colours that are in none", function()
+    bench:write("face.lua", [[
+return film { size = { 20, 20 }, space = "srgb", frame = function()
+  return union { circle { 10, 10, 8, fill = "#f2c6a0" }, rect { 9, 9, 3, 3, fill = "#ff0000" } }
+end }]])
+    bench:write("film.lua", [[
+return film { size = { 20, 20 }, frames = 4, background = "#9bd1ff",
+  palettes = { { skin = "#f2c6a0" }, colour.palette { day = { sky = "#9bd1ff" } } },
+  frame = function(f)
+    return { circle { 5, 5, 4, fill = f.index > 1 and "#f2c6a1" or "#f2c6a0" }:named "hat",
+             image { file = "face.png" } }
+  end }]])
+    bench:celspan_inside "render face.lua -o face.png --frames 1"
+    local _, _, said = run "check film.lua"
+    assert.matches("frame 1: #ff0000 is in no palette of the film: %(film.lua:5%), pixel 9, 9", said)
+    assert.matches("warning: frames 3%-4: #f2c6a1 is in no palette of the film: 'hat'", said)
+    assert.matches("no faults, 2 warnings", said)
+    bench:write("film.lua", "return film { palettes = { 7 }, frame = function() end }")
+    _, _, said = run "check film.lua"
+    assert.matches("film.lua:1: film: palettes%[1%] must be a table of colours by name, got number",
+      said)
+  end)
+end)
+
 describe("a value that is made and thrown away", function()
   --- What check says, from the line on.
   local function said(name)

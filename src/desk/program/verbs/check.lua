@@ -101,6 +101,7 @@ end
 --- Adds what is seen of a frame that was built, and the faults in its pictures.
 local function add_seen(script, survey, number)
   script:faults(function(...) add_fault(number, ...) end)
+  survey.strange.see(number)
   survey:add(number)
 end
 
@@ -287,8 +288,10 @@ local function warnings_of(survey)
     request.script)) do
     list[i] = { message = sentence }
   end
-  local seen = survey:warnings()
-  return table.move(seen, 1, #seen, #list + 1, list)
+  for _, seen in ipairs { survey:warnings(), survey.strange.list } do
+    table.move(seen, 1, #seen, #list + 1, list)
+  end
+  return list
 end
 
 --- The film of the script. If it cannot be opened, this is the only fault.
@@ -312,6 +315,7 @@ local count = listed and #listed or script.frames
 local tracks = script:check_tracks()
 if tracks ~= 0 then others[1] = program.reported() end
 local survey = program.part("survey.lua", program, script)
+survey.strange = program.part("strange.lua", script)
 local done, ended = check_parts(script, survey, listed, count)
 local warnings = program.until_stopped(warnings_of, survey) or {}
 if request.files then

@@ -127,6 +127,9 @@ int cs_track_inverse(lua_State *L);
 int cs_recolour_make(lua_State *L);
 /* (recolouring, object or texture) -> the value in the new colours; nil for another value */
 int cs_recolour_value(lua_State *L);
+/* (recolouring, rostrum): forgets the strange colours that it met before, and looks for those of a
+ * frame; pictures that have mostly such colours do not count */
+int cs_recolour_see(lua_State *L);
 /* (recolouring) -> the colours that it met and did not know: { { colour = "#rrggbb", count =,
  * place = " 'hat' (shot.lua:4)" or "", and of a pixel x, y }, ... } */
 int cs_recolour_strange(lua_State *L);

@@ -67,6 +67,18 @@ static void recolour_texture(lua_State *L, cs_recolour *recolour, cs_userdata *f
   value->handle = texture;
 }
 
+int cs_recolour_see(lua_State *L) {
+  cs_recolour *recolour = luaL_checkudata(L, 1, RECOLOURING);
+  const cs_userdata *from = cs_userdata_test(L, 2, &cs_kind_rostrum);
+  celspan_rostrum *rostrum = NULL;
+  luaL_argcheck(L, from, 2, "a rostrum is needed");
+  recolour->only_known = true;
+  recolour->strange_count = 0;
+  cs_host_try(L, "recolour", cs_recolour_rostrum(recolour, from->handle, &rostrum));
+  celspan_rostrum_unref(rostrum);
+  return 0;
+}
+
 int cs_recolour_value(lua_State *L) {
   cs_recolour *recolour = luaL_checkudata(L, 1, RECOLOURING);
   cs_userdata *object = cs_userdata_test(L, 2, &cs_kind_object);

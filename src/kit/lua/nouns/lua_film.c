@@ -85,6 +85,19 @@ static void check_captions(const cs_form *form) {
   lua_pop(L, 1);
 }
 
+/* The palettes are kept for `celspan check`, which asks the module for them. */
+static void check_colours(const cs_form *form) {
+  lua_State *L = form->L;
+  if (cs_form_get(form, "palettes") != LUA_TNIL) {
+    cs_require_module(L, "celspan.ink_recolour");
+    lua_getfield(L, -1, "keep");
+    lua_pushvalue(L, -3);
+    lua_call(L, 1, 0);
+    lua_pop(L, 1);
+  }
+  lua_pop(L, 1);
+}
+
 static void check_film(const cs_form *form, cs_userdata *value) {
   lua_State *L = form->L;
   int film = lua_gettop(L);
@@ -101,6 +114,7 @@ static void check_film(const cs_form *form, cs_userdata *value) {
   lua_setiuservalue(L, film, MARKS);
   check_poster(form, &read);
   check_captions(form);
+  check_colours(form);
   cs_grain_check(form);
   if (cs_form_get(form, "frame") != LUA_TFUNCTION)
     cs_form_fail(form, "field 'frame' must be a function(f) that returns a rostrum, got %s",
@@ -153,6 +167,8 @@ static const cs_field fields[] = {
      .about = "Names of frames, { title = 1 }, for --frames"},
     {"captions", CS_OWN("string|celspan.captions"),
      .about = "A .srt or .vtt file, or captions: a track of subtitles in videos"},
+    {"palettes", CS_OWN("(celspan.colour.palette|table<string, celspan.colour>)[]"),
+     .about = "`celspan check` warns of colours that are in none"},
     {"poster", CS_OWN("integer|string"),
      .about = "The frame that stands for the film, by its number or a time such as \"2s\""},
     {"frame", CS_OWN("fun(f: celspan.frame): celspan.shown"), .is_required = true,

@@ -47,14 +47,18 @@ static const cs_swatch *find(cs_painting *painting, const float rgba[4]) {
   return found ? found : &alone;
 }
 
-static void find_exact(cs_painting *painting) {
-  size_t count = (size_t)painting->width * (size_t)painting->height;
+/* Returns whether most of what is visible has a colour of the table. */
+static bool find_exact(cs_painting *painting) {
+  size_t count = (size_t)painting->width * (size_t)painting->height, visible = 0, strange = 0;
   painting->rounded = ROUNDED;
   for (size_t i = 0; i < count; i++) {
     const float *rgba = painting->rgba + 4 * i;
     bool is_known = i > 0 && is_same(rgba, rgba - 4);
     painting->exact[i] = is_known ? painting->exact[i - 1] : find(painting, rgba);
+    visible += painting->exact[i] != NULL;
+    strange += painting->exact[i] == &alone;
   }
+  return strange <= visible / 2;
 }
 
 /* Whether three neighbours of a pixel are like it: along an edge only two are. */
@@ -218,9 +222,9 @@ celspan_status cs_painting_recolour(celspan_context *context, cs_painting *paint
   size_t count = (size_t)painting->width * (size_t)painting->height;
   CS_TRY(CS_MAKE(context, painting->exact, count));
   order_around(painting);
-  find_exact(painting);
+  bool is_recoloured = find_exact(painting) || !painting->only_known;
   find_areas(painting);
-  for (int32_t y = 0; y < painting->height; y++)
+  for (int32_t y = 0; y < painting->height && is_recoloured; y++)
     for (int32_t x = 0; x < painting->width; x++)
       recolour(painting, x, y);
   cs_mem_free(context->memory, painting->exact, count * sizeof *painting->exact);

@@ -24,6 +24,7 @@ typedef struct cs_painting {
   int32_t width, height;
   float *rgba;     /* light, premultiplied */
   double within;   /* one of the above */
+  bool only_known; /* it stays, and nothing is reported, unless most of it is of the table */
   bool is_changed; /* result: whether a pixel has a new colour */
   /* Called for each pixel that stays and is no mixture, with its codes. */
   void (*report)(void *user, const double code[3], int32_t x, int32_t y);

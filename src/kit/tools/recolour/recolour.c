@@ -106,6 +106,7 @@ static celspan_status read_painting(cs_recolour *recolour, const cs_picture *pic
                     .height = unlit->height,
                     .rgba = unlit->paint,
                     .within = original.info.is_float ? CS_PAINTING_WITHIN_HALF : CS_PAINTING_WITHIN,
+                    .only_known = recolour->only_known,
                     .report = recolour->is_strict ? note : NULL,
                     .user = recolour};
   recolour->work += (int64_t)unlit->width * unlit->height;

@@ -29,6 +29,7 @@ typedef struct cs_recolour {
   celspan_context *context; /* for the calls */
   cs_swatches swatches;
   bool is_strict;      /* strange colours are listed */
+  bool only_known;     /* as in paintings */
   cs_strange *strange; /* room for CS_STRANGE_MOST, if it is strict */
   size_t strange_count;
   int64_t work; /* pixels that were looked at */
