@@ -408,7 +408,7 @@ return film { size = { 20, 20 }, frames = 4, background = "#9bd1ff",
   end }]])
     bench:celspan_inside "render face.lua -o face.png --frames 1"
     local _, _, said = run "check film.lua"
-    assert.matches("frame 1: #ff0000 is in no palette of the film: %(film.lua:5%), pixel 9, 9", said)
+    assert.matches("frame 1: #ff0000 is in no palette of the film: %(film.lua:5%), pixel 9,", said)
     assert.matches("warning: frames 3%-4: #f2c6a1 is in no palette of the film: 'hat'", said)
     assert.matches("no faults, 2 warnings", said)
     bench:write("film.lua", "return film { palettes = { 7 }, frame = function() end }")
