@@ -277,9 +277,22 @@ typedef struct batch {
   } runs[PIECES];
 } batch;
 
+static inline target target_of(const cs_map_adding *a, const cs_map_live *live, bool varies) {
+  const cs_map_sums *sums = a->sums;
+  return (target){.sums = sums->sums,
+                  .bits = (unsigned char *)sums->bits,
+                  .stride = (uint32_t)(sums->words * sizeof *sums->bits),
+                  .varies = varies,
+                  .step = cs_v4_load(live->step),
+                  .key = live->key,
+                  .live = live};
+}
+
 /* Adds a piece over more than two columns. */
-static __attribute__((noinline)) void add_columns(const cs_map_adding *a, const target *t,
-                                                  const piece *p) {
+static __attribute__((noinline)) void add_columns(const cs_map_adding *a, const cs_map_live *live,
+                                                  const piece *pieces, size_t k) {
+  const target whole = target_of(a, live, live->varies), *t = &whole;
+  const piece *p = pieces + k;
   const int32_t from = p->xa < p->xb ? p->xa : p->xb, to = p->xa < p->xb ? p->xb : p->xa;
   const int32_t height = p->yb - p->ya;
   const double slope = (double)height / ((double)to - from);
@@ -334,7 +347,7 @@ static inline ends load_pieces(const piece *p) {
 
 /* The changes by pieces, each of them in at most two columns. */
 typedef struct changes {
-  int32_t sum[PIECES];                /* the number of the sum of the first column */
+  int32_t sum[PIECES];                /* the sum of the first column, in bytes from the first */
   int32_t byte[PIECES], mask[PIECES]; /* the bits of all columns */
   /* the changes in the first column, in the second, and to the right of both */
   int32_t one[PIECES], two[PIECES], three[PIECES];
@@ -352,7 +365,7 @@ static inline void put_floats(eight v, float *out) { memcpy(out, &v, sizeof v); 
 static inline void find_places(uint32_t stride, integers8 from, integers8 ya, integers8 has_two,
                                size_t i, changes *out) {
   const integers8 column = from >> UNIT_BITS, row = (ya >> UNIT_BITS) & (CS_MAP_ROWS - 1);
-  const integers8 sum = column * CS_MAP_ROWS + row;
+  const integers8 sum = (column * CS_MAP_ROWS + row) * (int32_t)sizeof(cs_map_sum);
   const integers8 byte = row * (int32_t)stride + (column >> 3);
   const integers8 mask = (3 - 4 * has_two) << (column & 7);
   put(sum, out->sum + i);
@@ -384,32 +397,35 @@ static inline void find_changes(uint32_t stride, const piece *pieces, size_t i, 
   put(beyond, out->beyond + i);
 }
 
-static inline void add_piece(const cs_map_adding *a, const target *t, const changes *c, size_t k) {
-  cs_map_sum *sum = &t->sums[(uint32_t)c->sum[k]];
+static inline void add_piece(const cs_map_adding *a, const target *t, const piece *pieces,
+                             const changes *c, size_t k) {
+  cs_map_sum *sum = (cs_map_sum *)(void *)((char *)t->sums + (uint32_t)c->sum[k]);
+  if (c->beyond[k] > 0) {
+    if (c->beyond[k] > CS_MAP_UNIT) {
+      add_columns(a, t->live, pieces, k);
+      return;
+    }
+    add(a, t, sum + 2 * CS_MAP_ROWS, c->three[k], c->weights[2][k]);
+  }
   mark(t, (uint32_t)c->byte[k], (uint32_t)c->mask[k]);
   add(a, t, sum, c->one[k], c->weights[0][k]);
   add(a, t, sum + CS_MAP_ROWS, c->two[k], c->weights[1][k]);
-  if (c->beyond[k] > 0)
-    add(a, t, sum + 2 * CS_MAP_ROWS, c->three[k], c->weights[2][k]);
 }
 
+/* Adds the pieces of a border from the kth one on. varies: a constant of each caller. */
 static inline __attribute__((always_inline)) void add_run(const cs_map_adding *a,
                                                           const cs_map_live *live, bool varies,
                                                           const piece *pieces, const changes *c,
                                                           size_t k, size_t end) {
-  const cs_map_sums *sums = a->sums;
-  const target t = {.sums = sums->sums,
-                    .bits = (unsigned char *)sums->bits,
-                    .stride = (uint32_t)(sums->words * sizeof *sums->bits),
-                    .varies = varies,
-                    .step = cs_v4_load(live->step),
-                    .key = live->key,
-                    .live = live};
+  const target t = target_of(a, live, varies);
   for (; k < end; k++)
-    if (c->beyond[k] > CS_MAP_UNIT)
-      add_columns(a, &t, &pieces[k]);
-    else
-      add_piece(a, &t, c, k);
+    add_piece(a, &t, pieces, c, k);
+}
+
+static __attribute__((noinline)) void add_varied(const cs_map_adding *a, const cs_map_live *live,
+                                                 const piece *pieces, const changes *c, size_t k,
+                                                 size_t end) {
+  add_run(a, live, true, pieces, c, k, end);
 }
 
 static __attribute__((noinline)) void add_pieces(const cs_map_adding *a, batch *b) {
@@ -421,7 +437,7 @@ static __attribute__((noinline)) void add_pieces(const cs_map_adding *a, batch *
   for (size_t i = 0, first = 0; i < b->run_count; first = b->runs[i++].end) {
     const cs_map_live *live = b->runs[i].live;
     if (live->varies)
-      add_run(a, live, true, b->pieces, &c, first, b->runs[i].end);
+      add_varied(a, live, b->pieces, &c, first, b->runs[i].end);
     else
       add_run(a, live, false, b->pieces, &c, first, b->runs[i].end);
   }
@@ -430,88 +446,108 @@ static __attribute__((noinline)) void add_pieces(const cs_map_adding *a, batch *
 
 /* ---------------------------------------------------------------- cutting */
 
-/* Adds the part of a piece that is in the frame. Of the part left of the frame only the height
- * counts. */
-static void put_clipped(batch *b, piece p, int32_t side) {
+/* Adds the part of a piece that is in the frame, and returns the end of the pieces. Of the part
+ * left of the frame only the height counts. */
+static piece *put_clipped(piece p, int32_t side, piece *out) {
   const int32_t from = p.xa < p.xb ? p.xa : p.xb, to = p.xa < p.xb ? p.xb : p.xa;
   const double slope = to > from ? (double)(p.yb - p.ya) / ((double)to - from) : 0;
   if (from >= side)
-    return;
+    return out;
   if (to > side)
     p.yb = p.ya + (int32_t)(((double)side - from) * slope + 0.5);
   const int32_t left = to <= 0    ? p.yb - p.ya
                        : from < 0 ? (int32_t)(-(double)from * slope + 0.5)
                                   : 0;
   if (left > 0)
-    b->pieces[b->count++] = (piece){0, p.ya, 0, p.ya + left};
+    *out++ = (piece){0, p.ya, 0, p.ya + left};
   if (p.ya + left < p.yb)
-    b->pieces[b->count++] = (piece){from > 0 ? from : 0, p.ya + left, to < side ? to : side, p.yb};
-}
-
-/* Cuts the part of a line that is in the swath, row by row. Returns the end of the pieces. */
-static inline piece *cut_line(int32_t top, cs_map_point above, cs_map_point below, piece *out) {
-  const int32_t foot = top + CS_MAP_ROWS * CS_MAP_UNIT, end = below.y < foot ? below.y : foot;
-  const double slope = ((double)below.x - above.x) / ((double)below.y - above.y);
-  piece p = {.xb = above.x, .yb = above.y};
-  if (p.yb < top) {
-    p.yb = top;
-    p.xb = above.x + (int32_t)((double)(top - above.y) * slope);
-  }
-  while (p.yb < end) {
-    p.xa = p.xb;
-    p.ya = p.yb;
-    p.yb = (p.ya | (CS_MAP_UNIT - 1)) + 1;
-    p.yb = p.yb < end ? p.yb : end; /* beyond it a flat line has no number for its place */
-    p.xb = above.x + (int32_t)((double)(p.yb - above.y) * slope);
-    *out++ = p;
-  }
-  out[-1].xb = end == below.y ? below.x : out[-1].xb;
+    *out++ = (piece){from > 0 ? from : 0, p.ya + left, to < side ? to : side, p.yb};
   return out;
 }
 
+static inline void put_piece(integers v, piece *out) { memcpy(out, &v, sizeof *out); }
+
+/* Cuts the part of a line that is in the swath, four rows at a time. Returns the end of the pieces;
+ * up to three more are overwritten. */
+static inline piece *cut_line(int32_t top, const cs_map_point *at, piece *out) {
+  const int32_t foot = top + CS_MAP_ROWS * CS_MAP_UNIT, end = at[1].y < foot ? at[1].y : foot;
+  integers line;
+  memcpy(&line, at, sizeof line);
+  const doubles both = __builtin_convertvector(line, doubles);
+  const doubles across = both - __builtin_shufflevector(both, both, 2, 3, 0, 1);
+  const double slope = across[0] / across[1];
+  const integers x = __builtin_shufflevector(line, line, 0, 0, 0, 0);
+  const integers y = __builtin_shufflevector(line, line, 1, 1, 1, 1);
+  integers high = __builtin_shufflevector(line, line, 0, 1, 0, 1), low, from;
+  if (at->y < top)
+    high = (integers){0, 0, at->x + (int32_t)((double)(top - at->y) * slope), top};
+  integers feet =
+      ((__builtin_shufflevector(high, high, 3, 3, 3, 3) >> UNIT_BITS) + (integers){1, 2, 3, 4})
+      << UNIT_BITS;
+  piece *const last = out + ((end - 1) >> UNIT_BITS) - ((at->y < top ? top : at->y) >> UNIT_BITS);
+  for (; out <= last; out += 4) {
+    /* beyond its end a flat line has no number for its place */
+    const integers is_inside = feet < end, ys = (is_inside & feet) | (~is_inside & end);
+    const integers xs =
+        x + __builtin_convertvector(__builtin_convertvector(ys - y, doubles) * slope, integers);
+    from = high;
+    low = __builtin_shufflevector(xs, ys, 0, 4, 1, 5);
+    high = __builtin_shufflevector(xs, ys, 2, 6, 3, 7);
+    put_piece(__builtin_shufflevector(from, low, 2, 3, 4, 5), out);
+    put_piece(low, out + 1);
+    put_piece(__builtin_shufflevector(low, high, 2, 3, 4, 5), out + 2);
+    put_piece(high, out + 3);
+    feet += 4 * CS_MAP_UNIT;
+  }
+  last->xb = end == at[1].y ? at[1].x : last->xb;
+  return last + 1;
+}
+
 /* The same, of a border that is left or right of the frame somewhere. */
-static __attribute__((noinline)) void cut_clipped(const cs_map_adding *a, cs_map_point above,
-                                                  cs_map_point below, batch *b) {
+static __attribute__((noinline)) piece *cut_clipped(const cs_map_adding *a, const cs_map_point *at,
+                                                    piece *out) {
   piece pieces[CS_MAP_ROWS];
-  const piece *end = cut_line(a->row * CS_MAP_UNIT, above, below, pieces);
+  const piece *end = cut_line(a->row * CS_MAP_UNIT, at, pieces);
   for (const piece *p = pieces; p < end; p++)
-    put_clipped(b, *p, a->sums->width * CS_MAP_UNIT);
+    out = put_clipped(*p, a->sums->width * CS_MAP_UNIT, out);
+  return out;
 }
 
 /* ---------------------------------------------------------------- a border */
 
-static inline void end_run(batch *b, const cs_map_live *live) {
+/* end: of its pieces, which are the last ones. */
+static inline void end_run(batch *b, const cs_map_live *live, const piece *end) {
+  const size_t before = b->count;
+  b->count = (size_t)(end - b->pieces);
   b->runs[b->run_count].live = live;
   b->runs[b->run_count].end = b->count;
-  b->run_count += b->count > (b->run_count > 0 ? b->runs[b->run_count - 1].end : 0);
+  b->run_count += b->count > before;
 }
 
-/* is_inside: it is nowhere left or right of the frame; a constant of each caller. */
+/* is_inside: it is nowhere left or right of the frame; a constant of each caller. The first line
+ * ends in the swath or below it, and so no line is above it. */
 static inline void add_border(const cs_map_adding *a, cs_map_live *live, bool is_inside, batch *b) {
-  const cs_map_point *places = a->rows->places;
+  const cs_map_point *places = a->rows->places, *at = places + live->at;
+  const cs_map_point *last = places + live->end - 1;
   const int32_t top = a->row * CS_MAP_UNIT, foot = top + CS_MAP_ROWS * CS_MAP_UNIT;
-  const uint32_t end = live->end;
-  uint32_t at = live->at;
-  for (; at + 1 < end && places[at].y < foot; at++) {
-    const cs_map_point above = places[at], below = places[at + 1];
-    if (is_inside && above.y >= top && (above.y ^ (below.y - 1)) >> UNIT_BITS == 0) {
-      memcpy(&b->pieces[b->count], places + at, sizeof *b->pieces);
-      b->count += below.y > above.y;
-    } else if (below.y > above.y && below.y > top) {
-      if (is_inside)
-        b->count = (size_t)(cut_line(top, above, below, b->pieces + b->count) - b->pieces);
-      else
-        cut_clipped(a, above, below, b);
+  piece *out = b->pieces + b->count;
+  for (; at < last && at->y < foot; at++) {
+    if (is_inside && (at[0].y ^ (at[1].y - 1)) >> UNIT_BITS == 0) {
+      memcpy(out, at, sizeof *out);
+      out += at[1].y > at[0].y;
+    } else if (at[1].y > at[0].y) {
+      out = is_inside ? cut_line(top, at, out) : cut_clipped(a, at, out);
     }
-    if (b->count > PIECES - 2 * CS_MAP_ROWS) {
-      end_run(b, live);
+    if (out > b->pieces + PIECES - 2 * CS_MAP_ROWS) {
+      end_run(b, live, out);
       add_pieces(a, b);
+      out = b->pieces;
     }
-    if (below.y > foot)
+    if (at[1].y > foot)
       break;
   }
-  end_run(b, live);
-  live->next = at;
+  end_run(b, live, out);
+  live->next = (uint32_t)(at - places);
 }
 
 void CS_WIDE(cs_map_add)(const cs_map_adding *adding) {
