@@ -221,13 +221,13 @@ typedef struct cs_srgb8_planes {
   cs_wide channels[4];
 } cs_srgb8_planes;
 
-/* A register of colours that lie one after another. */
-static inline cs_srgb8_planes cs_srgb8_planes_of(const float *rgba) {
+/* A register of colours, each `stride` numbers after the one before. */
+static inline cs_srgb8_planes cs_srgb8_planes_of(const float *rgba, size_t stride) {
   cs_wide v[4]; /* v[i]: the pixels i, i + 4, i + 8, ... */
   for (int i = 0; i < 4; i++) {
     const float *pixels[CS_SRGB8_PIXELS];
     for (int k = 0; k < CS_SRGB8_PIXELS; k++)
-      pixels[k] = rgba + 16 * k + 4 * i;
+      pixels[k] = rgba + stride * (size_t)(4 * k + i);
     v[i] = cs_wide_pixels(pixels);
   }
   cs_wide rg = CS_WIDE_JOINED(v[0], v[1], 0, 1), next_rg = CS_WIDE_JOINED(v[2], v[3], 0, 1);

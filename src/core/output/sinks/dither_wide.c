@@ -138,10 +138,10 @@ static inline cs_srgb8_planes colours_of(const celspan_span *span, int32_t x, in
     return cs_pixels8_columns(span, x);
   const float *rgba = span->array + 4 * (size_t)(x - span->x0);
   if (count == CS_WIDE_LANES)
-    return cs_srgb8_planes_of(rgba);
+    return cs_srgb8_planes_of(rgba, 4);
   float last[4 * CS_WIDE_LANES] = {0};
   memcpy(last, rgba, 4 * (size_t)count * sizeof *rgba);
-  return cs_srgb8_planes_of(last);
+  return cs_srgb8_planes_of(last, 4);
 }
 
 static inline void put_varied(const dithered *d, const celspan_span *span, uint32_t place,

@@ -45,7 +45,14 @@ static inline cs_wide_int all_of(uint32_t pixel) { return (cs_wide_int){0} + (in
 /* codes: of a portion. The entries of spans that are not single have no meaning. */
 static inline void code_colours(const celspan_span *spans, size_t count, bool is_coded,
                                 uint32_t *codes) {
-  for (size_t k = 0; k < count; k += CS_SRGB8_PIXELS) {
+  size_t k = 0;
+  for (; k + CS_WIDE_LANES <= count; k += CS_WIDE_LANES) {
+    const cs_srgb8_planes colours =
+        cs_srgb8_planes_of(spans[k].colour, sizeof *spans / sizeof *spans->colour);
+    const cs_wide_int pixels = cs_srgb8_code_planes(&colours, is_coded);
+    memcpy(codes + k, &pixels, sizeof pixels);
+  }
+  for (; k < count; k += CS_SRGB8_PIXELS) {
     const float *together[CS_SRGB8_PIXELS];
     for (size_t i = 0; i < CS_SRGB8_PIXELS; i++)
       together[i] = spans[k + i < count ? k + i : k].colour;
