@@ -4,6 +4,8 @@
 
 /* ---------------------------------------------------------------- pixels */
 
+typedef uint64_t words __attribute__((vector_size(sizeof(cs_map_sum))));
+
 /* The pixel that a walk along a row has reached. */
 typedef struct pixel {
   const cs_map_cell *cells;
@@ -32,6 +34,12 @@ static inline uint32_t cell_of(const pixel *p) {
              : CS_MAP_BROKEN;
 }
 
+/* In one store. */
+static inline void clear_sum(cs_map_sum *sum) {
+  const words none = {0};
+  memcpy(sum, &none, sizeof *sum);
+}
+
 /* Adds the difference between a pixel and the pixel on its left to the sum, and clears the
  * difference. */
 static inline void change(pixel *p, cs_map_sum *sum) {
@@ -40,53 +48,72 @@ static inline void change(pixel *p, cs_map_sum *sum) {
   p->cell = cell_of(p);
   if (p->cell != CS_MAP_BROKEN)
     p->sum = p->colours[p->cell];
-  *sum = (cs_map_sum){.head = 0};
+  clear_sum(sum);
 }
 
 /* A bit for each of up to 64 words: whether it is not 0. count: a multiple of four. */
-static inline uint64_t find_filled(const uint64_t *words, size_t count) {
+static inline uint64_t find_filled(const uint64_t *row, size_t count) {
   uint64_t filled = 0;
   for (size_t i = 0; i < count; i += 4) {
 #ifdef __AVX2__
-    const __m256i four = _mm256_loadu_si256((const __m256i *)(const void *)(words + i));
+    const __m256i four = _mm256_loadu_si256((const __m256i *)(const void *)(row + i));
     const __m256i is_0 = _mm256_cmpeq_epi64(four, _mm256_setzero_si256());
     filled |= (uint64_t)(15 & ~_mm256_movemask_pd((__m256d)is_0)) << i;
 #else
     for (size_t k = i; k < i + 4; k++)
-      filled |= (uint64_t)(words[k] != 0) << k;
+      filled |= (uint64_t)(row[k] != 0) << k;
 #endif
   }
   return filled;
 }
 
-static inline cs_map_sum *sum_at(const cs_map_sums *sums, size_t k, int32_t column) {
-  return &sums->sums[CS_MAP_ROWS * (size_t)column + k];
-}
-
-/* Lists the pixels of a row to which something was added, from left to right, and clears their
+/* A walk over the pixels of a row to which something was added, from left to right. It clears their
  * bits. */
-static inline size_t list_columns(const cs_map_sums *sums, size_t k) {
+typedef struct walk {
+  uint64_t *bits;
+  size_t count;           /* words of the row */
+  size_t first, next;     /* the word of the first bit of `filled`, and the words visited */
+  uint64_t filled, word;  /* what is left of these words, and of the pixels of one of them */
+  int32_t corner, column; /* of the first pixel of `word`; the column that is reached */
+} walk;
+
+static inline walk walk_along(const cs_map_sums *sums, size_t k) {
   const int32_t width = sums->width;
   uint64_t *bits = sums->bits + k * sums->words;
-  int32_t *out = sums->columns;
-  *sum_at(sums, k, width) = (cs_map_sum){.head = 0};
+  clear_sum(&sums->sums[CS_MAP_ROWS * (size_t)width + k]);
   bits[width / 64] &= (UINT64_C(1) << width % 64) - 1;
-  for (size_t first = 0; first < sums->words; first += 64) {
-    const size_t count = sums->words - first < 64 ? sums->words - first : 64;
-    for (uint64_t filled = find_filled(bits + first, count); filled; filled &= filled - 1) {
-      const size_t i = first + (size_t)__builtin_ctzll(filled);
-      uint64_t word = bits[i];
-      for (bits[i] = 0; word; word &= word - 1)
-        *out++ = (int32_t)(64 * i) + __builtin_ctzll(word);
-    }
+  return (walk){.bits = bits, .count = sums->words};
+}
+
+/* Goes to the next word that is not empty. False: there is none. */
+static inline bool go_on(walk *w) {
+  for (; w->filled == 0; w->next += 64) {
+    if (w->next >= w->count)
+      return false;
+    w->first = w->next;
+    w->filled =
+        find_filled(w->bits + w->first, w->count - w->first < 64 ? w->count - w->first : 64);
   }
-  return (size_t)(out - sums->columns);
+  const size_t i = w->first + (size_t)__builtin_ctzll(w->filled);
+  w->filled &= w->filled - 1;
+  w->corner = (int32_t)(64 * i);
+  w->word = w->bits[i];
+  w->bits[i] = 0;
+  return true;
+}
+
+/* Goes to the next pixel. False: there is none. */
+static inline bool step(walk *w) {
+  if (w->word == 0 && !go_on(w))
+    return false;
+  w->column = w->corner + __builtin_ctzll(w->word);
+  w->word &= w->word - 1;
+  return true;
 }
 
 void CS_WIDE(cs_map_clear_row)(const cs_map_sums *sums, size_t k) {
-  const size_t count = list_columns(sums, k);
-  for (size_t i = 0; i < count; i++)
-    *sum_at(sums, k, sums->columns[i]) = (cs_map_sum){.head = 0};
+  for (walk w = walk_along(sums, k); step(&w);)
+    clear_sum(&sums->sums[CS_MAP_ROWS * (size_t)w.column + k]);
 }
 
 /* ---------------------------------------------------------------- the only sheet of a frame */
@@ -96,17 +123,15 @@ void CS_WIDE(cs_map_read_alone)(const cs_map_sums *sums, const cs_map_rows *rows
   /* Copies, which stay in registers. */
   const cs_map_sheet sheet = {.back = frame->sheets[0].back, .keep = frame->sheets[0].keep};
   const cs_map_frame behind = {.back = frame->back, .keep = frame->keep};
-  const int32_t *columns = sums->columns;
   cs_map_sum *pixels = sums->sums + k;
   cs_row_writer writer = cs_row_writer_begin(out, 0);
   pixel p = clear_pixel(rows, rows->drawing->colours);
-  const size_t count = list_columns(sums, k);
-  for (size_t i = 0; i < count; i++) {
+  for (walk w = walk_along(sums, k); step(&w);) {
     const cs_v4 colour = p.sum;
     const uint32_t cell = p.cell;
-    change(&p, &pixels[CS_MAP_ROWS * (size_t)columns[i]]);
+    change(&p, &pixels[CS_MAP_ROWS * (size_t)w.column]);
     if (p.cell != cell || cell == CS_MAP_BROKEN)
-      cs_row_writer_to(&writer, columns[i], cs_map_fold_one(&sheet, &behind, colour));
+      cs_row_writer_to(&writer, w.column, cs_map_fold_one(&sheet, &behind, colour));
   }
   cs_row_writer_to(&writer, sums->width, cs_map_fold_one(&sheet, &behind, p.sum));
   cs_row_writer_end(&writer);
@@ -196,15 +221,16 @@ static celspan_status begin_row(reader *r, int32_t width) {
 }
 
 static celspan_status read_varied_row(reader *r, const cs_map_sums *sums, size_t k) {
-  const size_t count = list_columns(sums, k);
+  walk w = walk_along(sums, k);
   CS_TRY(begin_row(r, sums->width));
-  if (count == 0 || sums->columns[0] > 0)
+  bool is_inside = step(&w);
+  if (!is_inside || w.column > 0)
     CS_TRY(put(r, 0));
-  for (size_t i = 0; i < count; i++) {
-    cs_map_sum *sum = sum_at(sums, k, sums->columns[i]);
+  for (; is_inside; is_inside = step(&w)) {
+    cs_map_sum *sum = &sums->sums[CS_MAP_ROWS * (size_t)w.column + k];
     CS_TRY(change_areas(r, sums, sum->head));
     change(&r->pixel, sum);
-    CS_TRY(put(r, sums->columns[i]));
+    CS_TRY(put(r, w.column));
   }
   r->last->end = sums->width;
   return CELSPAN_OK;
@@ -212,21 +238,22 @@ static celspan_status read_varied_row(reader *r, const cs_map_sums *sums, size_t
 
 /* A row in which nothing varies: its pixel stays in registers. */
 static celspan_status read_flat_row(reader *r, const cs_map_sums *sums, size_t k) {
-  const size_t count = list_columns(sums, k);
-  const int32_t *columns = sums->columns;
   cs_map_sum *pixels = sums->sums + k;
+  walk w = walk_along(sums, k);
   CS_TRY(begin_row(r, sums->width));
   pixel p = r->pixel;
   cs_map_span *span = r->first;
-  size_t i = count > 0 && columns[0] == 0;
-  if (i > 0)
+  bool is_inside = step(&w);
+  if (is_inside && w.column == 0) {
     change(&p, pixels);
+    is_inside = step(&w);
+  }
   begin_span(&p, span);
-  for (; i < count; i++) {
-    change(&p, &pixels[CS_MAP_ROWS * (size_t)columns[i]]);
+  for (; is_inside; is_inside = step(&w)) {
+    change(&p, &pixels[CS_MAP_ROWS * (size_t)w.column]);
     if (p.cell == span->cell && p.cell != CS_MAP_BROKEN)
       continue;
-    span->end = columns[i];
+    span->end = w.column;
     begin_span(&p, ++span);
   }
   span->end = sums->width;

@@ -21,13 +21,11 @@ celspan_status cs_map_sums_init(celspan_context *context, int32_t width, cs_map_
   if (!out->storage)
     return cs_fail_memory(context);
   out->sums = cs_wide_align(out->storage);
-  CS_TRY(CS_MAKE(context, out->columns, (size_t)width));
   return CS_MAKE(context, out->bits, bit_words(out));
 }
 
 void cs_map_sums_finish(cs_map_sums *sums, cs_memory *memory) {
   cs_mem_free(memory, sums->storage, storage_size(sums));
-  cs_mem_free(memory, sums->columns, (size_t)sums->width * sizeof *sums->columns);
   cs_mem_free(memory, sums->bits, bit_words(sums) * sizeof *sums->bits);
   cs_mem_free(memory, sums->parts, sums->part_capacity * sizeof *sums->parts);
   *sums = (cs_map_sums){0};

@@ -121,7 +121,6 @@ typedef struct cs_map_sums {
   void *storage;    /* the storage of the sums, which lie on lines of the cache */
   cs_map_sum *sums; /* column by column */
   uint64_t *bits;   /* row by row: the pixels to which something was added */
-  int32_t *columns; /* room for the columns of a row */
   uint32_t unread;  /* one bit for each row that has not been cleared yet */
   cs_map_part *parts;
   size_t part_count, part_capacity;
