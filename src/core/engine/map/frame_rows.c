@@ -5,7 +5,6 @@
 #include "engine/map/reading.h"
 #include "engine/paint/over_row.h"
 #include "engine/paint/run.h"
-#include "engine/span/row_writer.h"
 
 /* ---------------------------------------------------------------- life */
 
@@ -93,164 +92,17 @@ bool cs_map_frame_has(const cs_map_frame *frame, int32_t y) {
 
 /* ---------------------------------------------------------------- a row */
 
-/* The fold of the sheets from the camera to before one of them. */
-typedef struct folded {
-  cs_map_fold fold;
-  int32_t end;             /* the first column where one of these sheets changes */
-  uint32_t broken, varied; /* how many of these sheets are broken, and how many vary */
-} folded;
-
-/* Where a row is being folded. */
-typedef struct folding {
-  cs_map_maker *maker;
-  int32_t y;
-  const cs_map_span *at[CS_MAP_DRAWINGS]; /* the span of each sheet */
-  folded before[CS_MAP_DRAWINGS + 1];     /* one for each sheet that may be visible, and one more */
-  size_t shown_count;                     /* sheets that may be visible, from the camera */
-} folding;
-
-/* is_even: all sheets are even; a constant of each caller. */
-static inline bool lets_through(const cs_map_fold *fold, bool is_even) {
-  return is_even ? fold->t[0] > 0 : cs_v4_any_above(fold->t, cs_v4_all(0));
-}
-
-/* Whether nothing shines through a span, which varies. */
-static bool hides(const cs_map_drawing *drawing, const cs_map_span *span) {
-  return span->cell != CS_MAP_BROKEN && drawing->map->cells[span->cell].hides &&
-         drawing->light[3] == 1;
-}
-
-/* The transmission of a span of a sheet. */
-static inline cs_v4 through_of(const folding *f, size_t i, const cs_map_span *span) {
-  const cs_map_rows *rows = &f->maker->rows[i];
-  return rows->drawing->through ? rows->through[span - rows->spans] : cs_map_even(span->colour);
-}
-
-/* Folds `count` sheets at a column, up to the first one that nothing shines through. It continues
- * from the first sheet that has changed since the column before. Cells that vary are left out of
- * the fold. varies: whether any cell varies or is coloured: a constant of each caller. */
-static inline folded fold_sheets(folding *f, int32_t x, size_t count, bool varies) {
-  const cs_map_frame *frame = f->maker->frame;
-  size_t i = f->shown_count > 0 ? f->shown_count - 1 : 0;
-  while (i > 0 && f->before[i].end <= x)
-    i--;
-  folded all = f->before[i];
-  for (bool is_hidden = false; i < count && lets_through(&all.fold, !varies) && !is_hidden; i++) {
-    const cs_map_span *span = f->at[i];
-    while (span->end <= x)
-      span++;
-    f->at[i] = span;
-    all.end = span->end < all.end ? span->end : all.end;
-    all.broken += span->cell == CS_MAP_BROKEN;
-    all.varied += varies && span->share_count > 0;
-    if (varies && span->share_count > 0)
-      is_hidden = hides(f->maker->rows[i].drawing, span);
-    else if (span->cell > 0 || f->maker->rows[i].has_back)
-      cs_map_fold_add(&all.fold, &frame->sheets[i], span->colour,
-                      varies ? through_of(f, i, span) : cs_map_even(span->colour));
-    f->before[i + 1] = all;
-  }
-  f->shown_count = i;
-  return all;
-}
-
-/* The transmission of a varying sheet in the pixels of its span where its alpha is 0: a cell that
- * varies dims all channels alike, by its alpha. */
-static cs_v4 clear_of(const folding *f, size_t i) {
-  const cs_map_rows *rows = &f->maker->rows[i];
-  const cs_map_span *span = f->at[i];
-  float through = span->colour[3];
-  if (!rows->drawing->through)
-    return cs_v4_all(1);
-  for (uint32_t n = 0; n < span->share_count; n++)
-    through += rows->shares[span->share + n].share;
-  return through_of(f, i, span) + cs_v4_all(through);
-}
-
-/* The colours of a sheet from x to end, which are in one of its spans. */
-static celspan_status find_colours(folding *f, size_t i, int32_t x, int32_t end, cs_v4 *out) {
-  const cs_map_rows *rows = &f->maker->rows[i];
-  const cs_map_span *span = f->at[i];
-  cs_v4 colours[CS_OVER_ROW_BATCH];
-  for (int32_t k = 0; k < end - x; k++)
-    out[k] = span->colour;
-  for (uint32_t n = 0; n < span->share_count; n++) {
-    const cs_map_share *share = &rows->shares[span->share + n];
-    CS_TRY(cs_map_brush_colours(rows->brush, share->cell, f->y, x, end, colours));
-    for (int32_t k = 0; k < end - x; k++)
-      out[k] += share->share * colours[k];
-  }
-  return CELSPAN_OK;
-}
-
-/* The first of the broken spans that end with the current one of a sheet. */
-static const cs_map_span *find_broken(const folding *f, size_t i) {
-  const cs_map_rows *rows = &f->maker->rows[i];
-  const cs_map_span *first = rows->spans + rows->first[f->y - f->maker->row], *span = f->at[i];
-  while (span > first && span[-1].cell == CS_MAP_BROKEN)
-    span--;
-  return span;
-}
-
-/* The colour of a sheet at x, to the left of its broken pixels. */
-static celspan_status find_base(folding *f, size_t i, int32_t x, cs_map_shown *out) {
-  const cs_map_rows *rows = &f->maker->rows[i];
-  const cs_map_span *first = rows->spans + rows->first[f->y - f->maker->row];
-  const cs_map_span *span = find_broken(f, i);
-  uint32_t cell = span > first ? span[-1].cell : 0;
-  CS_TRY(cs_map_brush_colour(rows->brush, rows->drawing, cell, x, f->y, &out->colour));
-  out->through = cs_map_through(rows->drawing, cell, out->colour);
-  return CELSPAN_OK;
-}
-
-/* Adds the lines of a broken sheet at x. */
-static celspan_status add_lines(folding *f, size_t i, int32_t x) {
-  cs_map_maker *maker = f->maker;
-  cs_map_rows *rows = &maker->rows[i];
-  const cs_map_span *first = rows->spans + rows->first[f->y - maker->row];
-  const cs_map_span *span = find_broken(f, i);
-  return cs_map_exact_add(maker->context, &maker->exact, rows, (uint32_t)i,
-                          span > first ? span[-1].end : 0, x, f->y);
-}
-
-/* The mean of a sheet at x, and the lines of a broken one. */
-static celspan_status find_shown(folding *f, size_t i, int32_t x, cs_map_shown *out) {
-  *out = (cs_map_shown){&f->maker->frame->sheets[i], f->at[i]->colour, through_of(f, i, f->at[i])};
-  if (f->at[i]->share_count > 0) {
-    CS_TRY(find_colours(f, i, x, x + 1, &out->colour));
-    out->through = clear_of(f, i) - cs_v4_all(out->colour[3]);
-  }
-  return f->at[i]->cell == CS_MAP_BROKEN ? add_lines(f, i, x) : CELSPAN_OK;
-}
-
-/* Solves the pixel at x, where several sheets that can be shown are broken. */
-static celspan_status solve(folding *f, int32_t x, uint32_t broken_count, cs_v4 *out) {
-  cs_map_maker *maker = f->maker;
-  cs_map_exact *exact = &maker->exact;
-  cs_map_shown shown[CS_MAP_DRAWINGS];
-  for (size_t i = 0; i < f->shown_count; i++)
-    CS_TRY(find_shown(f, i, x, &shown[i]));
-  if (broken_count == 2 && exact->line_count <= CS_MAP_EXACT_LINES) {
-    *out = cs_map_exact_pair(exact, maker->frame, shown, f->shown_count);
-    return CELSPAN_OK;
-  }
-  for (size_t i = 0; i < f->shown_count; i++)
-    if (f->at[i]->cell == CS_MAP_BROKEN)
-      CS_TRY(find_base(f, i, x, &shown[i]));
-  return cs_map_exact_mean(maker->context, exact, maker->frame, shown, f->shown_count, out);
-}
-
 /* Whether nothing can be seen behind the last of the sheets that are shown. */
-static bool is_rearmost(const folding *f, const cs_map_fold *fold) {
+static bool is_rearmost(const cs_map_folding *f, const cs_map_fold *fold) {
   const cs_map_frame *frame = f->maker->frame;
   size_t last = f->shown_count - 1;
   bool has_backing = last + 1 < frame->count || frame->keep * fold->keep != 1 ||
                      !cs_v4_same(frame->sheets[last].back + frame->back, cs_v4_all(0));
-  return !has_backing || hides(f->maker->rows[last].drawing, f->at[last]);
+  return !has_backing || cs_map_folding_hides(f->maker->rows[last].drawing, f->at[last]);
 }
 
 /* Whether only one cell is visible, with nothing in front of it. */
-static bool is_bare(const folding *f, const folded *all) {
+static bool is_bare(const cs_map_folding *f, const cs_map_folded *all) {
   size_t last = f->shown_count - 1;
   const cs_map_span *span = f->at[last];
   return all->varied == 1 && span->share_count > 0 && span->cell != CS_MAP_BROKEN &&
@@ -259,7 +111,7 @@ static bool is_bare(const folding *f, const folded *all) {
 }
 
 /* Paints a cell of a sheet as a run. */
-static celspan_status paint_run(folding *f, size_t i, int32_t x, int32_t end, cs_row *out) {
+static celspan_status paint_run(cs_map_folding *f, size_t i, int32_t x, int32_t end, cs_row *out) {
   cs_map_brush *brush = f->maker->rows[i].brush;
   cs_program program = cs_map_brush_program(brush->drawing, f->at[i]->cell);
   return cs_painter_run_program(&brush->painter, &program, (cs_run){x, end, f->y + 0.5}, out);
@@ -274,16 +126,17 @@ typedef struct affine {
 } affine;
 
 /* The colour of the frame where the sheet that varies has this colour. */
-static cs_v4 fold_with(const folding *f, size_t varied, cs_v4 colour) {
+static cs_v4 fold_with(const cs_map_folding *f, size_t varied, cs_v4 colour) {
   const cs_map_frame *frame = f->maker->frame;
   cs_map_fold fold = f->before[varied].fold;
   cs_map_fold_add(&fold, &frame->sheets[varied], colour, cs_map_even(colour));
   for (size_t i = varied + 1; i < f->shown_count; i++)
-    cs_map_fold_add(&fold, &frame->sheets[i], f->at[i]->colour, through_of(f, i, f->at[i]));
+    cs_map_fold_add(&fold, &frame->sheets[i], f->at[i]->colour,
+                    cs_map_folding_through(f, i, f->at[i]));
   return cs_map_fold_end(fold, frame);
 }
 
-static affine find_affine(const folding *f, size_t varied) {
+static affine find_affine(const cs_map_folding *f, size_t varied) {
   cs_v4 light = f->maker->rows[varied].drawing->light;
   cs_v4 base = fold_with(f, varied, cs_v4_all(0));
   cs_v4 covered = fold_with(f, varied, (cs_v4){0, 0, 0, light[3]});
@@ -318,7 +171,7 @@ static celspan_status put_through(const cs_map_maker *maker, const affine *p,
 }
 
 /* The first sheet that varies. */
-static size_t first_varied(const folding *f) {
+static size_t first_varied(const cs_map_folding *f) {
   size_t i = 0;
   while (f->before[i + 1].varied == 0)
     i++;
@@ -327,7 +180,7 @@ static size_t first_varied(const folding *f) {
 
 /* Whether a sheet, the first that varies, is the only one, and its spans can be seen among flat
  * ones. */
-static bool varies_alone(const folding *f, const folded *all, size_t sheet) {
+static bool varies_alone(const cs_map_folding *f, const cs_map_folded *all, size_t sheet) {
   return all->varied == 1 && f->at[sheet]->cell != CS_MAP_BROKEN &&
          !f->maker->rows[sheet].drawing->grade;
 }
@@ -338,7 +191,7 @@ static bool keeps_error(const affine *p) {
   return !cs_v4_any_above(p->scale, cs_v4_all(1)) && !cs_v4_any_above(p->base, cs_v4_all(1));
 }
 
-static celspan_status paint_affine(folding *f, const affine *p, size_t varied, int32_t x,
+static celspan_status paint_affine(cs_map_folding *f, const affine *p, size_t varied, int32_t x,
                                    int32_t end, cs_row *out) {
   cs_row *painted = &f->maker->painted;
   cs_row_clear(painted);
@@ -351,18 +204,20 @@ static celspan_status paint_affine(folding *f, const affine *p, size_t varied, i
 /* ---------------------------------------------------------------- all that vary */
 
 /* Adds a sheet that varies to the folds of the pixels [x, end). */
-static celspan_status add_varied(folding *f, size_t i, int32_t x, int32_t end, cs_map_fold *folds) {
+static celspan_status add_varied(cs_map_folding *f, size_t i, int32_t x, int32_t end,
+                                 cs_map_fold *folds) {
   const cs_map_sheet *sheet = &f->maker->frame->sheets[i];
-  const cs_v4 clear = clear_of(f, i);
+  const cs_v4 clear = cs_map_folding_clear(f, i);
   cs_v4 colours[CS_OVER_ROW_BATCH];
-  CS_TRY(find_colours(f, i, x, end, colours));
+  CS_TRY(cs_map_folding_colours(f, i, x, end, colours));
   for (int32_t k = 0; k < end - x; k++)
     cs_map_fold_add(&folds[k], sheet, colours[k], clear - cs_v4_all(colours[k][3]));
   return CELSPAN_OK;
 }
 
 /* Folds the sheets pixel by pixel, from the first one that varies. */
-static celspan_status fold_batch(folding *f, size_t varied, int32_t x, int32_t end, float *out) {
+static celspan_status fold_batch(cs_map_folding *f, size_t varied, int32_t x, int32_t end,
+                                 float *out) {
   const cs_map_frame *frame = f->maker->frame;
   cs_map_fold folds[CS_OVER_ROW_BATCH];
   for (int32_t k = 0; k < end - x; k++)
@@ -372,7 +227,7 @@ static celspan_status fold_batch(folding *f, size_t varied, int32_t x, int32_t e
       CS_TRY(add_varied(f, i, x, end, folds));
       continue;
     }
-    const cs_v4 colour = f->at[i]->colour, through = through_of(f, i, f->at[i]);
+    const cs_v4 colour = f->at[i]->colour, through = cs_map_folding_through(f, i, f->at[i]);
     for (int32_t k = 0; k < end - x; k++)
       cs_map_fold_add(&folds[k], &frame->sheets[i], colour, through);
   }
@@ -382,8 +237,8 @@ static celspan_status fold_batch(folding *f, size_t varied, int32_t x, int32_t e
 }
 
 /* The columns [x, end), in which something varies. */
-static celspan_status paint_varied(folding *f, const folded *all, int32_t x, int32_t end,
-                                   cs_row *out) {
+static celspan_status paint_varied(cs_map_folding *f, const cs_map_folded *all, int32_t x,
+                                   int32_t end, cs_row *out) {
   float *colours, one[4];
   if (is_bare(f, all))
     return paint_run(f, f->shown_count - 1, x, end, out);
@@ -405,55 +260,15 @@ static celspan_status paint_varied(folding *f, const folded *all, int32_t x, int
   return CELSPAN_OK;
 }
 
-/* Writes the spans of the rearmost sheet that follow its current one, up to column x, as far as the
- * sheets in front of it stay as they are. Returns the column where it ends. */
-static inline int32_t write_rear(folding *f, int32_t x, cs_row_writer *writer) {
-  const cs_map_frame *frame = f->maker->frame;
-  const cs_map_frame behind = {.back = frame->back, .keep = frame->keep};
-  const size_t rear = frame->count - 1;
-  const cs_map_span *span = f->at[rear];
-  const cs_map_sheet sheet = {.back = frame->sheets[rear].back, .keep = frame->sheets[rear].keep};
-  const folded front = f->before[rear];
-  while (x < front.end) {
-    cs_map_fold fold = front.fold;
-    span++;
-    cs_map_fold_add(&fold, &sheet, span->colour, cs_map_even(span->colour));
-    x = span->end < front.end ? span->end : front.end;
-    cs_row_writer_to(writer, x, cs_map_fold_end_even(fold, &behind));
-  }
-  f->at[rear] = span;
-  return x;
-}
-
-/* A row in which nothing varies. */
-static celspan_status make_flat_row(folding *f, cs_row *out) {
-  const cs_map_maker *maker = f->maker;
-  int32_t width = maker->frame->width;
-  CS_TRY(cs_row_room(maker->context, out, (size_t)width));
-  cs_row_writer writer = cs_row_writer_begin(out, 0);
-  for (int32_t x = 0, end; x < width; x = end) {
-    const folded all = fold_sheets(f, x, maker->frame->count, false);
-    cs_v4 colour = cs_map_fold_end_even(all.fold, maker->frame);
-    end = all.broken > 1 ? x + 1 : all.end;
-    if (all.broken > 1)
-      CS_TRY(solve(f, x, all.broken, &colour));
-    cs_row_writer_to(&writer, end, colour);
-    if (f->shown_count == maker->frame->count && f->before[f->shown_count - 1].broken == 0)
-      end = write_rear(f, end, &writer);
-  }
-  cs_row_writer_end(&writer);
-  return CELSPAN_OK;
-}
-
-static celspan_status make_varied_row(folding *f, cs_row *out) {
+static celspan_status make_varied_row(cs_map_folding *f, cs_row *out) {
   const cs_map_maker *maker = f->maker;
   int32_t width = maker->frame->width;
   for (int32_t x = 0, end; x < width; x = end) {
-    const folded all = fold_sheets(f, x, maker->frame->count, true);
+    const cs_map_folded all = cs_map_fold_sheets(f, x, maker->frame->count, true);
     cs_v4 colour = cs_map_fold_end(all.fold, maker->frame);
     end = all.broken > 1 ? x + 1 : all.end;
     if (all.broken > 1)
-      CS_TRY(solve(f, x, all.broken, &colour));
+      CS_TRY(cs_map_folding_solve(f, x, all.broken, &colour));
     if (all.broken <= 1 && all.varied > 0)
       CS_TRY(paint_varied(f, &all, x, end, out));
     else
@@ -462,14 +277,15 @@ static celspan_status make_varied_row(folding *f, cs_row *out) {
   return CELSPAN_OK;
 }
 
-static celspan_status make_row(folding *f, cs_row *out) {
+static celspan_status make_row(cs_map_folding *f, cs_row *out) {
   const cs_map_maker *maker = f->maker;
   for (size_t i = 0; i < maker->frame->count; i++)
     f->at[i] = maker->rows[i].spans + maker->rows[i].first[f->y - maker->row];
-  f->before[0] = (folded){.fold = cs_map_fold_begin, .end = maker->frame->width};
+  f->before[0] = (cs_map_folded){.fold = cs_map_fold_begin, .end = maker->frame->width};
   f->shown_count = 0;
-  return maker->varies || maker->frame->count == 0 ? make_varied_row(f, out)
-                                                   : make_flat_row(f, out);
+  return maker->varies || maker->frame->count == 0
+             ? make_varied_row(f, out)
+             : CS_WIDE_CHOOSE(maker->sums.isa, cs_map_fold_flat)(f, out);
 }
 
 static celspan_status make_swath(cs_map_maker *maker, int32_t row) {
@@ -500,7 +316,7 @@ static celspan_status make_alone(cs_map_maker *maker, int32_t y, cs_row *out) {
 }
 
 celspan_status cs_map_maker_row(cs_map_maker *maker, int32_t y, cs_row *out) {
-  folding f;
+  cs_map_folding f;
   f.maker = maker;
   f.y = y;
   int32_t row = cs_map_swath(y);

@@ -1,21 +1,7 @@
-/* The state of one thread that makes the rows of a frame of drawings. */
+/* The rows of a frame of drawings, made by one thread. */
 #pragma once
 
-#include "engine/map/exact.h"
-#include "engine/map/swept.h"
-
-typedef struct cs_map_maker {
-  celspan_context *context;  /* borrowed: the worker's branch */
-  const cs_map_frame *frame; /* borrowed */
-  cs_map_sums sums;
-  cs_map_rows *rows;     /* one for each sheet */
-  cs_map_brush *brushes; /* one for each sheet */
-  cs_map_swept *swept;   /* one for each sheet, used by the swept sheets */
-  int32_t row;           /* the first row of the swath that is in `rows`; -1: none is */
-  cs_map_exact exact;
-  cs_row painted; /* a run of the only sheet that varies */
-  bool varies;    /* a cell of a sheet varies, or a sheet is coloured */
-} cs_map_maker;
+#include "engine/map/folding.h"
 
 /* Errors: NO_MEMORY; cs_map_maker_finish must be called then, too. */
 CELSPAN_CHECKED celspan_status cs_map_maker_init(cs_map_maker *maker, celspan_context *context,
