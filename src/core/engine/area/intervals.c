@@ -348,33 +348,35 @@ static void merge_intervals(cs_intervals *b) {
 
 /* ---------------------------------------------------------------- begins and ends */
 
+enum { FEW_POINTS = 12 }; /* most of these polylines have no more */
+
+typedef struct point_list {
+  celspan_point *items;
+  size_t count, capacity;
+} point_list;
+
+static celspan_status append_point(cs_intervals *b, point_list *list, double x, double y) {
+  list->items = cs_arena_grow(b->context, b->arena, list->items, list->count, &list->capacity,
+                              sizeof *list->items);
+  if (!list->items)
+    return CELSPAN_NO_MEMORY;
+  list->items[list->count++] = (celspan_point){x, y};
+  return CELSPAN_OK;
+}
+
 /* The polyline of a chain that begins inside the row, down to its end or the foot of the row. */
-static celspan_status chain_points(cs_intervals *b, uint32_t chain, const celspan_point **points,
-                                   uint32_t *count) {
+static celspan_status chain_points(cs_intervals *b, uint32_t chain, point_list *out) {
   const cs_boundary_set *set = b->active->set;
   double top = set->chains[chain].y0;
-  cs_boundary_walk walk;
-  size_t room = 3;
-  cs_boundary_start(set, chain, top, &walk);
-  for (cs_boundary_walk ahead = walk; ahead.y1 < b->y1 && cs_boundary_next(set, &ahead);)
-    room++;
-  celspan_point *p = allocate(b, room, sizeof *p), *last = p;
-  if (!p)
-    return CELSPAN_NO_MEMORY;
-  *points = p;
-  *p++ = (celspan_point){cs_boundary_x(&walk, top), top};
   bool more = true;
-  while (more && walk.y1 < b->y1) {
-    if (walk.y1 > last->y) {
-      last = p;
-      *p++ = (celspan_point){walk.x1, walk.y1};
-    }
-    more = cs_boundary_next(set, &walk);
-  }
-  if (more)
-    *p++ = (celspan_point){cs_boundary_x(&walk, b->y1), b->y1};
-  *count = (uint32_t)(p - *points);
-  return CELSPAN_OK;
+  cs_boundary_walk walk;
+  *out = (point_list){allocate(b, FEW_POINTS, sizeof *out->items), 0, FEW_POINTS};
+  cs_boundary_start(set, chain, top, &walk);
+  CS_TRY(append_point(b, out, cs_boundary_x(&walk, top), top));
+  for (; more && walk.y1 < b->y1; more = cs_boundary_next(set, &walk))
+    if (walk.y1 > out->items[out->count - 1].y)
+      CS_TRY(append_point(b, out, walk.x1, walk.y1));
+  return more ? append_point(b, out, cs_boundary_x(&walk, b->y1), b->y1) : CELSPAN_OK;
 }
 
 size_t cs_intervals_count_begins(const cs_active *active, double y1) {
@@ -393,10 +395,10 @@ static celspan_status find_begins(cs_intervals *b) {
   if (!b->begins || !b->begin_intervals)
     return CELSPAN_NO_MEMORY;
   for (size_t k = 0; k < b->chain_count; k++) {
-    uint32_t chain = (uint32_t)(active->next + k), count;
-    const celspan_point *points;
-    CS_TRY(chain_points(b, chain, &points, &count));
-    set_member(&b->begins[k], active, chain, points, count);
+    uint32_t chain = (uint32_t)(active->next + k);
+    point_list points;
+    CS_TRY(chain_points(b, chain, &points));
+    set_member(&b->begins[k], active, chain, points.items, (uint32_t)points.count);
   }
   if (b->procedure_edge_count > 0)
     memcpy(b->begins + b->chain_count, b->procedure_edges,

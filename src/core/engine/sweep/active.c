@@ -129,7 +129,10 @@ static void move_boundaries(cs_active *active, size_t to, size_t from, size_t co
 static inline void rotate_items(void *array, size_t size, size_t to, size_t from) {
   unsigned char *items = array, moved[sizeof(uint64_t)];
   memcpy(moved, items + from * size, size);
-  memmove(items + (to + 1) * size, items + to * size, (from - to) * size);
+  if (from == to + 1) /* mostly; then no function is called */
+    memcpy(items + from * size, items + to * size, size);
+  else
+    memmove(items + (to + 1) * size, items + to * size, (from - to) * size);
   memcpy(items + to * size, moved, size);
 }
 
@@ -174,10 +177,10 @@ static inline bool is_right(const cs_active *active, size_t i, size_t j) {
                            slope_at(active, j), active->walks[active->slot[j]].chain);
 }
 
-/* The index where boundary i belongs among 0..i-1, which are in order. The search goes left in
+/* The index where boundary i belongs among 0..count-1, which are in order. The search goes left in
  * doubling strides and then by halves: quick for a boundary that is almost in its place. */
-static size_t find_place(const cs_active *active, size_t i) {
-  size_t high = i, step = 1;
+static size_t find_place(const cs_active *active, size_t i, size_t count) {
+  size_t high = count, step = 1;
   while (high >= step && is_right(active, high - step, i)) {
     high -= step;
     step *= 2;
@@ -241,7 +244,7 @@ static celspan_status sort(celspan_context *context, cs_active *active, cs_chang
   for (size_t i = 1; i < active->count; i++) {
     if (x[i - 1] < x[i]) /* where x is equal, slopes and chains decide */
       continue;
-    size_t to = find_place(active, i);
+    size_t to = find_place(active, i, i);
     if (to == i)
       continue;
     if ((moved += i - to) > most)
@@ -275,11 +278,47 @@ static bool do_many_begin(const cs_active *active, double y) {
   return last < active->set->chain_count && active->set->chains[last].y0 <= y;
 }
 
-static void insert_last(cs_active *active, cs_change *change) {
-  size_t last = active->count - 1, place = find_place(active, last);
-  if (place < last)
-    insert_boundary(active, place, last);
-  *change = cs_change_join(*change, (cs_change){place, last - place});
+/* Boundaries that have been appended to those in order, and are merged with them in one pass:
+ *
+ *     old      a  b  c  d  e                  places[k]: before which of them the k-th one belongs,
+ *     new                     q  p            items[k]   from left to right
+ *     merged   a  p  b  c  q  d  e
+ */
+typedef struct begun {
+  size_t old, count;
+  uint32_t items[MANY_BEGIN], places[MANY_BEGIN];
+} begun;
+
+static inline void merge_items(void *array, size_t size, const begun *b) {
+  unsigned char *items = array;
+  uint64_t room[MANY_BEGIN];
+  for (size_t k = 0; k < b->count; k++)
+    memcpy(&room[k], items + b->items[k] * size, size);
+  for (size_t k = b->count, end = b->old; k-- > 0; end = b->places[k]) {
+    size_t place = b->places[k];
+    memmove(items + (place + k + 1) * size, items + place * size, (end - place) * size);
+    memcpy(items + (place + k) * size, &room[k], size);
+  }
+}
+
+/* Merges boundaries old..count-1, of which there are at most MANY_BEGIN, with those before. */
+static void merge_begun(cs_active *active, size_t old, cs_change *change) {
+  begun b; /* not all of it is needed */
+  b.old = old;
+  b.count = 0;
+  for (size_t i = old; i < active->count; i++) {
+    size_t k = b.count++;
+    for (; k > 0 && is_right(active, b.items[k - 1], i); k--)
+      b.items[k] = b.items[k - 1];
+    b.items[k] = (uint32_t)i;
+  }
+  for (size_t k = 0; k < b.count; k++)
+    b.places[k] = (uint32_t)find_place(active, b.items[k], old);
+#define MERGE(array) merge_items(array, sizeof *(array), &b);
+  EACH_ORDERED(MERGE)
+#undef MERGE
+  if (b.count > 0)
+    *change = cs_change_join(*change, (cs_change){b.places[0], old - b.places[b.count - 1]});
 }
 
 /* Takes in the chains that begin at or above y. */
@@ -287,15 +326,16 @@ static celspan_status begin_chains(celspan_context *context, cs_active *active, 
                                    cs_change *change) {
   const cs_boundary_chain *chains = active->set->chains;
   bool many = do_many_begin(active, y);
+  size_t old = active->count;
   for (; active->next < active->set->chain_count && chains[active->next].y0 <= y; active->next++) {
     uint32_t chain = (uint32_t)active->next;
-    if (y < chains[chain].y1 && cs_cull_keeps(active->cull, chain, active->tile_row)) {
+    if (y < chains[chain].y1 && cs_cull_keeps(active->cull, chain, active->tile_row))
       CS_TRY(append(context, active, chain, y));
-      if (!many)
-        insert_last(active, change);
-    }
   }
-  return many ? sort_all(context, active, change) : CELSPAN_OK;
+  if (many)
+    return sort_all(context, active, change);
+  merge_begun(active, old, change);
+  return CELSPAN_OK;
 }
 
 celspan_status cs_active_start(celspan_context *context, cs_active *active, double y) {
