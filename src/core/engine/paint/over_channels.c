@@ -114,10 +114,17 @@ static inline cs_run run_of(const cs_batch *batch) {
   return (cs_run){batch->columns[0], batch->columns[batch->count - 1] + 1, batch->y};
 }
 
-/* Premultiplied RGBA of `count` pixels from a first one on. */
+/* Premultiplied RGBA of a pixel. */
+static inline void put_colour(const cs_over_channels *pixels, int32_t k, float *rgba) {
+  const float alpha = 1 - pixels->keep * pixels->through[k];
+  cs_v4_store(rgba, (cs_v4){pixels->light[0][k], pixels->light[1][k], pixels->light[2][k], alpha});
+}
+
+/* The same for `count` pixels from a first one on. */
 static void put_colours(const cs_over_channels *pixels, int32_t first, int32_t count,
                         float (*rgba)[4]) {
-  for (int32_t k = 0; k < count; k += 4) {
+  int32_t k = 0;
+  for (; k + 4 <= count; k += 4) {
     const cs_v4 r = cs_v4_load(pixels->light[0] + first + k);
     const cs_v4 g = cs_v4_load(pixels->light[1] + first + k);
     const cs_v4 b = cs_v4_load(pixels->light[2] + first + k);
@@ -130,15 +137,17 @@ static void put_colours(const cs_over_channels *pixels, int32_t first, int32_t c
                            __builtin_shufflevector(rg, ba, 2, 3, 6, 7),
                            __builtin_shufflevector(next_rg, next_ba, 0, 1, 4, 5),
                            __builtin_shufflevector(next_rg, next_ba, 2, 3, 6, 7)};
-    for (int32_t i = 0; i < 4 && k + i < count; i++)
+    for (int32_t i = 0; i < 4; i++)
       cs_v4_store(rgba[k + i], four[i]);
   }
+  for (; k < count; k++)
+    put_colour(pixels, first + k, rgba[k]);
 }
 
 static void copy_ready(const cs_over_channels_ahead *ahead, const cs_batch *batch,
                        float (*rgba)[4]) {
   for (int32_t k = 0; k < batch->count && batch->columns; k++)
-    put_colours(&ahead->pixels, batch->columns[k] - ahead->run.x0, 1, rgba + k);
+    put_colour(&ahead->pixels, batch->columns[k] - ahead->run.x0, rgba[k]);
   if (!batch->columns)
     put_colours(&ahead->pixels, batch->x0 - ahead->run.x0, batch->count, rgba);
 }

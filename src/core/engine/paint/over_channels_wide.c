@@ -47,13 +47,15 @@ void CS_WIDE(cs_over_channels_light)(cs_over_channels *pixels, const cs_over_cha
 
 enum { ROOM = CS_SHADE_PLACES + CS_WIDE_LANES }; /* whole registers are read and written */
 
-/* Up to CS_SHADE_PLACES pixels of a layer with a gradient. */
+static_assert(CS_OVER_ROW_BATCH <= CS_SHADE_PLACES, "the places of a batch are found together");
+
+/* The pixels of a batch, as pixels of a layer with a gradient. */
 typedef struct piece {
   const cs_layer *layer;
   const cs_shade *shade;
   const cs_batch *batch;
-  int32_t first, count; /* pixels of the batch */
-  double at[ROOM];      /* where they lie along the stops */
+  int32_t count;
+  double at[ROOM]; /* where they lie along the stops */
 } piece;
 
 static inline int32_t whole(int32_t count) {
@@ -64,7 +66,7 @@ static inline int32_t whole(int32_t count) {
 static inline void find_affine(piece *p, bool is_radial, bool has_focus) {
   const cs_shade_row row = cs_shade_row_of(p->shade, p->batch->y);
   for (int32_t k = 0; k < p->count; k += CS_WIDE_LANES) {
-    const double x = p->batch->x0 + p->first + k + 0.5;
+    const double x = p->batch->x0 + k + 0.5;
 #pragma omp simd
     for (int32_t i = 0; i < CS_WIDE_LANES; i++)
       p->at[k + i] = cs_shade_row_at(&row, x + i, is_radial, has_focus);
@@ -74,7 +76,7 @@ static inline void find_affine(piece *p, bool is_radial, bool has_focus) {
 static void find_listed(piece *p) {
   double x[ROOM];
   for (int32_t k = 0; k < p->count; k++)
-    x[k] = cs_batch_centre(p->batch, p->first + k);
+    x[k] = cs_batch_centre(p->batch, k);
   cs_shade_find(p->shade, x, p->count, p->batch->y, p->at);
   for (int32_t k = p->count; k < whole(p->count); k++)
     p->at[k] = p->at[p->count - 1];
@@ -176,14 +178,14 @@ static inline bool are_shares(cs_wide shares) {
  * change. Returns the pixel after them. */
 static inline size_t add_whole(cs_over_channels *pixels, const piece *p,
                                const cs_shade_stretch *part, size_t k, bool is_lit) {
-  const size_t first = (size_t)p->first, count = part->length != 0 ? (size_t)p->count : 0;
+  const size_t count = part->length != 0 ? (size_t)p->count : 0;
   const cs_shade_stretch own = *part; /* the compiler sees that nothing changes it */
   const paints r = paints_of(part);
   for (; k < count; k += CS_WIDE_LANES) {
     const cs_wide shares = shares_of(&own, p->at + k);
     if (!are_shares(shares))
       break;
-    add_lanes(pixels, first + k, &r, p->layer, shares, mask_of(ALL), is_lit);
+    add_lanes(pixels, k, &r, p->layer, shares, mask_of(ALL), is_lit);
   }
   return k;
 }
@@ -201,8 +203,7 @@ static inline cs_shade_stretch add_mixed(cs_over_channels *pixels, const piece *
       lanes = (lanes_in(&part, at) | 1u << lane) & rest;
     }
     const paints r = paints_of(&part);
-    add_lanes(pixels, (size_t)p->first + k, &r, p->layer, shares_of(&part, at), mask_of(lanes),
-              is_lit);
+    add_lanes(pixels, k, &r, p->layer, shares_of(&part, at), mask_of(lanes), is_lit);
   }
   return part;
 }
@@ -221,20 +222,15 @@ static inline void add_piece(cs_over_channels *pixels, piece *p, bool is_lit) {
 
 void CS_WIDE(cs_over_channels_add_shade)(cs_over_channels *pixels, const cs_layer *layer,
                                          const cs_shade *shade, const cs_batch *batch) {
-  piece p;
+  piece p; /* not all of it is needed */
   p.layer = layer;
   p.shade = shade;
   p.batch = batch;
-  p.first = 0;
-  const bool is_lit = !cs_shade_is_bare(layer);
-  for (; p.first < pixels->count; p.first += p.count) {
-    const int32_t left = pixels->count - p.first;
-    p.count = left < CS_SHADE_PLACES ? left : CS_SHADE_PLACES;
-    if (is_lit)
-      add_piece(pixels, &p, true);
-    else
-      add_piece(pixels, &p, false);
-  }
+  p.count = pixels->count;
+  if (cs_shade_is_bare(layer))
+    add_piece(pixels, &p, false);
+  else
+    add_piece(pixels, &p, true);
 }
 
 void CS_WIDE(cs_over_channels_to_codes)(const cs_over_channels *pixels, int32_t first,

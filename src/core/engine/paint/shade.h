@@ -78,7 +78,7 @@ static inline double cs_shade_at(const cs_shade *shade, double x, double y) {
 }
 
 /* The same for up to CS_SHADE_PLACES places of a row. */
-#define CS_SHADE_PLACES 64
+#define CS_SHADE_PLACES 256
 void cs_shade_find(const cs_shade *shade, const double *x, int32_t count, double y, double *at);
 
 /* In vector code, shade_wide.c: as cs_shade_find, for all but noise; and the paints of those of at
