@@ -34,6 +34,7 @@ typedef struct coder_sink {
   cs_coder coder;
   int32_t width;
   unsigned char *row; /* from begin to end */
+  unsigned char *aim; /* where rows are coded instead, or NULL */
   cs_shares shares;   /* the shares of the inner sink, if there are several threads */
 } coder_sink;
 
@@ -62,7 +63,7 @@ static celspan_span code(const coder_sink *sink, int32_t y, const celspan_span *
 static celspan_status put_row(void *user, celspan_context *context, int32_t y,
                               const celspan_span *spans, size_t span_count) {
   coder_sink *sink = user;
-  const celspan_span coded = code(sink, y, spans, span_count, sink->row);
+  const celspan_span coded = code(sink, y, spans, span_count, sink->aim ? sink->aim : sink->row);
   return sink->inner.row(sink->inner.user, context, y, &coded, 1);
 }
 
@@ -84,6 +85,10 @@ celspan_status cs_coder_sink(celspan_context *context, const cs_coder *coder, ce
   *sink = (celspan_sink){CS_SINK_CALLS, .user = made,
                          .takes_codes = !coder->dithers && cs_pixels_takes_codes(&coder->coding)};
   return CELSPAN_OK;
+}
+
+void cs_coder_aim(const celspan_sink *sink, unsigned char *row) {
+  ((coder_sink *)sink->user)->aim = row;
 }
 
 celspan_status cs_coder_dither(celspan_context *context, const celspan_coding *asked,

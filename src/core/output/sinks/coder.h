@@ -26,7 +26,10 @@ void cs_coder_row(const cs_coder *coder, int32_t y, const celspan_span *spans, s
  * failure *sink is discarded. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_coder_sink(celspan_context *context, const cs_coder *coder,
                                              celspan_sink *sink);
-/* The same if the requested coding has the depth 8_DITHER; otherwise does nothing. coding:
+/* Where that sink codes its next row, unless the row was coded before; NULL: in memory of its own.
+ * The sink behind may call this from its `begin` and its `row`. */
+void cs_coder_aim(const celspan_sink *sink, unsigned char *row);
+/* As cs_coder_sink if the requested coding has the depth 8_DITHER; otherwise does nothing. coding:
  * resolved. x, y: as in cs_coder. */
 CELSPAN_CHECKED celspan_status cs_coder_dither(celspan_context *context,
                                                const celspan_coding *asked,

@@ -22,6 +22,7 @@ static cs_exit report(const cs_into *into, celspan_status status) {
 
 /* A sink that writes coded rows of a frame to standard output, without a header. */
 typedef struct raw_rows {
+  const celspan_sink *coder; /* codes into `rows`, so that nothing is copied */
   size_t pixel_size;
   unsigned char *rows; /* rows that are not written yet */
   size_t row_size, count, capacity;
@@ -34,6 +35,7 @@ static celspan_status begin_raw(void *user, celspan_context *context, int32_t wi
   raw->row_size = (size_t)width * raw->pixel_size;
   raw->capacity = raw->row_size < RAW_TOGETHER ? RAW_TOGETHER / raw->row_size : 1;
   raw->rows = cs_mem_resize(context->memory, NULL, 0, raw->capacity * raw->row_size);
+  cs_coder_aim(raw->coder, raw->rows);
   return raw->rows ? CELSPAN_OK : cs_fail_memory(context);
 }
 
@@ -55,9 +57,14 @@ static celspan_status flush(celspan_context *context) {
 static celspan_status put_raw_row(void *user, celspan_context *context, int32_t y,
                                   const celspan_span *spans, size_t span_count) {
   raw_rows *raw = user;
+  unsigned char *row = raw->rows + raw->count++ * raw->row_size;
   (void)y, (void)span_count;
-  memcpy(raw->rows + raw->count++ * raw->row_size, spans->codes, raw->row_size);
-  return raw->count == raw->capacity ? write_raw(raw, context) : CELSPAN_OK;
+  if (spans->codes != row) /* coded before */
+    memcpy(row, spans->codes, raw->row_size);
+  if (raw->count == raw->capacity)
+    CS_TRY(write_raw(raw, context));
+  cs_coder_aim(raw->coder, raw->rows + raw->count * raw->row_size);
+  return CELSPAN_OK;
 }
 
 static celspan_status end_raw(void *user, celspan_context *context, celspan_status outcome) {
@@ -73,8 +80,9 @@ static celspan_status end_raw(void *user, celspan_context *context, celspan_stat
 static celspan_status print_frame(celspan_context *context, const celspan_frame_desc *frame,
                                   const celspan_coding *coding) {
   const cs_coder coder = cs_coder_of(coding, frame->crop_x, frame->crop_y);
-  raw_rows raw = {.pixel_size = celspan_coding_pixel_size(&coder.coding)};
-  celspan_sink sink = {sizeof sink, &raw, begin_raw, put_raw_row, end_raw, false};
+  celspan_sink sink;
+  raw_rows raw = {.coder = &sink, .pixel_size = celspan_coding_pixel_size(&coder.coding)};
+  sink = (celspan_sink){sizeof sink, &raw, begin_raw, put_raw_row, end_raw, false};
   CS_TRY(cs_coder_sink(context, &coder, &sink));
   return cs_frame_render_own(context, frame, &sink, NULL);
 }
