@@ -480,6 +480,33 @@ static void check_light(void) {
   celspan_context_destroy(s.context);
 }
 
+/* A small speck with a gradient keeps its light wherever it lies between samples, so that snow does
+ * not twinkle. */
+static void check_specks(void) {
+  const celspan_stop stops[2] = {{0, celspan_paint_rgb(1, 1, 1, 1)},
+                                 {1, celspan_paint_rgb(1, 1, 1, 0)}};
+  static studio s;
+  view v = {2 * SIDE, 2 * SIDE, SIDE, SIDE, CELSPAN_ANTIALIAS_AREA};
+  CHECK(celspan_context_create(NULL, &s.context) == CELSPAN_OK);
+  for (int k = 0; k < 12; k++) {
+    if (!check_is_drawn(k))
+      continue;
+    celspan_cel_desc desc = CELSPAN_CEL_DESC;
+    double x = 24 + 0.06 * k, sum = 0;
+    desc.defocus_radius = 7;
+    celspan_texture *fading = studio_radial(&s, (celspan_point){x, 24}, 0.8, stops, 2);
+    celspan_object *speck = studio_circle(&s, x, 24, 0.8, fading);
+    celspan_cel *cel = studio_cel(&s, desc, &speck, 1);
+    image i = make(&s, studio_rostrum(&s, CELSPAN_ROSTRUM_DESC, &cel, 1), &v, 1);
+    for (int32_t p = 0; p < v.width * v.height; p++)
+      sum += (double)i.rgba[p][3] / 4;
+    CHECK_NEAR(sum / (PI * 0.64 / 3), 1, 0.04);
+    free(i.rgba);
+    studio_finish(&s);
+  }
+  celspan_context_destroy(s.context);
+}
+
 /* Under the mode AREA the picture approaches the sharp one as the radius approaches 0. */
 static void check_tiny(void) {
   static studio s;
@@ -653,6 +680,7 @@ int main(void) {
   check_grids();
   check_blended();
   check_light();
+  check_specks();
   check_tiny();
   check_ramps(4, CELSPAN_ANTIALIAS_AREA);
   check_ramps(0.8, CELSPAN_ANTIALIAS_NONE);

@@ -14,6 +14,7 @@
 /* The most and the fewest samples of pictures in the radius of a Gaussian. */
 #define SAMPLES_FINE 18
 #define SAMPLES_LEAST 4
+#define WIDE 12        /* pixels: the least radius at which pictures are sampled between nodes */
 #define LEAST_RADIUS 3 /* pixels: smaller radii would need many nodes for each pixel */
 #define BEYOND 4       /* nodes of the part beyond the visible area */
 /* nodes from the cel's origin, where the axes are wrong by 1/100 */
@@ -50,10 +51,11 @@ static double nodes_in_radius(celspan_defocus_kernel kernel) {
 }
 
 /* Pictures under a Gaussian that is not wide are sampled at the nodes, about once for each pixel;
- * under a wide Gaussian also between the nodes, as often as on the grids of frames. */
+ * under a wide Gaussian there are half as many nodes along each axis or fewer, and samples between
+ * them. */
 static void choose_density(const cs_blur *blur, bool varies, grid_axis axes[2], double *samples) {
   bool is_gaussian = blur->kind == CELSPAN_DEFOCUS_GAUSSIAN;
-  bool is_wide = fmin(blur->radius_x, blur->radius_y) >= SAMPLES_FINE;
+  bool is_wide = fmin(blur->radius_x, blur->radius_y) >= WIDE;
   bool is_sampled = varies && is_gaussian && !is_wide;
   *samples = is_wide ? SAMPLES_FINE : SAMPLES_LEAST;
   for (int k = 0; k < 2; k++) {

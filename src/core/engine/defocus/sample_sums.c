@@ -13,9 +13,9 @@
 /* ---------------------------------------------------------------- weights */
 
 /* The variance of the weights, in samples, for a blur of the given variance. Interpolating linearly
- * between samples spreads by 1/6. Boundaries are averaged by tents, which spread them by another
- * 1/6; half of this share is subtracted, too, so that neither pictures nor boundaries are off by
- * more than 1/12. */
+ * between samples spreads by 1/6. Boundaries are averaged over samples, which spreads them by
+ * another 1/12, or by tents (sample_kernel in defocus.c), which spread by 1/6; 1/12 is subtracted,
+ * too, so that neither pictures nor boundaries are off by more than 1/12. */
 static double left_over(double variance) {
   return variance > 1 ? variance - 0.25 : 0.75 * variance;
 }
