@@ -1,6 +1,7 @@
 --- Ink and paint: the steps between a drawing and a cel. Each function is loaded when it is first
 -- read, so that a film pays for what it uses.
 --
+--   ink.scan("rough.####.png")          -- scans, registered by their pegs and cleaned
 --   ink.recolour(hero, day, night)      -- a drawing in the colours of another palette
 local native = require "celspan.native"
 local fields = require "celspan.fields"
@@ -8,7 +9,7 @@ local fields = require "celspan.fields"
 local ink = {}
 
 --- The private modules, each of which returns its functions by their names here.
-local parts = { recolour = "ink_recolour" }
+local parts = { recolour = "ink_recolour", scan = "ink_scan" }
 
 local refuse = getmetatable(fields.seal("ink", ink)).__index
 

@@ -18,7 +18,7 @@
 extern "C" {
 #endif
 
-#define CS_PICTURE_MODULE_VERSION 8u
+#define CS_PICTURE_MODULE_VERSION 9u
 #define CS_PICTURE_SIDE 1048576
 #define CS_PICTURE_CHANNELS 1024
 #define CS_PICTURE_SPACE 256   /* bytes of the name of a space in a file */
@@ -50,7 +50,8 @@ typedef struct cs_picture_request {
 typedef struct cs_picture_header {
   celspan_picture_info info;
   cs_picture_alpha alpha;
-  int bits; /* the bits of the coded values when they are integers of at most 16 bits, else 0 */
+  int bits;   /* the bits of the coded values when they are integers of at most 16 bits, else 0 */
+  double dpi; /* pixels for an inch; 0: the file does not say */
   bool is_linear; /* they were in a space of OpenColorIO, and are linear light, premultiplied */
   /* What the file says: its primaries, if it has some (model/colour/primaries.h), and the name of
    * its space, if celspan does not have that; "": it does not say. info.colour is then

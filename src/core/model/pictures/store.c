@@ -414,6 +414,14 @@ celspan_status cs_store_info(celspan_context *context, const cs_picture *picture
   return CELSPAN_OK;
 }
 
+celspan_status cs_store_dpi(celspan_context *context, const cs_picture *picture, double *out) {
+  cs_picture_entry *entry;
+  CS_TRY(cs_store_entry(context, picture, &entry));
+  *out = entry->header.dpi;
+  cs_store_leave(entry);
+  return CELSPAN_OK;
+}
+
 celspan_status celspan_picture_inspect(celspan_context *context, const celspan_picture_desc *desc,
                                        celspan_picture_info *out) {
   cs_picture *picture;

@@ -94,6 +94,9 @@ struct cs_picture_store {
 /* The facts of the header, which is read once in a context. Errors: INPUT, LIMIT, NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_store_info(celspan_context *context, const cs_picture *picture,
                                              celspan_picture_info *out);
+/* The pixels for an inch that the file says; 0: it does not. Errors: as cs_store_info. */
+CELSPAN_CHECKED celspan_status cs_store_dpi(celspan_context *context, const cs_picture *picture,
+                                            double *out);
 /* The picture module. failure: the status if there is no module, INPUT or OUTPUT. */
 CELSPAN_CHECKED celspan_status cs_store_module(celspan_context *context, celspan_status failure,
                                                const cs_picture_module **out);

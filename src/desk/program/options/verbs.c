@@ -404,6 +404,26 @@ static const cs_option TRACE[] = {
     PICTURE_RIGHTS,
     {0}};
 
+static const cs_option SCAN[] = {
+    OUTPUT("OUT", "the clean drawings, such as clean/level.####.png"),
+    {"--pegs", "KIND", &cs_argument_text,
+     "acme: by the holes of the peg bar, the default; none: by the corners of the paper"},
+    {"--match", NULL, NULL, "instead, by the best shift of the lines onto those of the first"},
+    {"--dpi", "N", &cs_argument_every, "pixels for an inch; default: what the file says"},
+    {"--levels", "A,B", &cs_argument_text,
+     "the brightness of black and of white, 0 to 1; default: by paper and ink"},
+    {"--ink", "NAME=COLOUR,...", &cs_argument_text,
+     "the pencils, such as black=#222,red=#c33: each is also written to level.NAME.####.png"},
+    {"--dust", "N", &cs_argument_pixels, "blots of at most N pixels are left out; default: 8"},
+    {"--contact", "FILE", &cs_argument_file,
+     "a picture of how each drawing was moved: its number, degrees, pixels to the right and down"},
+    FRAMES,
+    {"--json", NULL, NULL, "print how each drawing was moved as a JSON object"},
+    CODING,
+    PROGRESS,
+    PICTURE_RIGHTS,
+    {0}};
+
 static const cs_option TRACK[] = {
     OUTPUT("OUT.json", "the track, for celspan.track; default: standard output"),
     {"--from", "N", &cs_argument_integer, "the frame in which the region is given"},
@@ -615,6 +635,13 @@ const cs_verb cs_verbs[] = {
               "between them. A script can be rendered, and other scripts can require it to "
               "use its shapes. OUT is either complete or absent.",
      .options = TRACE},
+    {"scan", "PATTERN -o OUT", 1, 1,
+     .summary = "Registers scanned drawings by their peg holes, and cleans them.",
+     .notes =
+         "PATTERN names scans by number, such as rough.####.png. Each is turned and moved so "
+         "that all lie alike, on the pegs of ACME, and becomes lines on a clear ground. A scan "
+         "that cannot be registered ends the run, with its name and what to do.",
+     .options = SCAN},
     {"track", "PATTERN --from N --at X,Y,W,H", 1, 1,
      .summary = "Follows a region through frames, and writes its position in each frame.",
      .notes = "PATTERN names pictures by number, such as head.####.png. Frames in which the "

@@ -107,6 +107,23 @@ int cs_tracing_make(lua_State *L);
  * where the name of the output ends in .lua. */
 int cs_tracing_write(lua_State *L);
 
+/* ---------------------------------------------------------------- scans */
+
+/* (file) -> a scanned page, its width and height, the dpi that the file says, or 0 | nil,
+ * message */
+int cs_scanning_open(lua_State *L);
+/* (page, dpi, {{x, y, width, height}, ...}) -> how many holes were found, and if all: their scale,
+ * turn in radians, x and y of their origin in pixels, the greatest error in millimetres */
+int cs_scanning_pegs(lua_State *L);
+/* (page) -> turn, x and y of the paper's middle, the greatest error in radians | nil */
+int cs_scanning_corners(lua_State *L);
+/* (page, another) -> x, y by which the lines of the page must move onto the other's, likeness */
+int cs_scanning_shift(lua_State *L);
+/* (page, {turn, x, y, to_x, to_y, width, height}, colours, dust [, black, white]) -> pixels for
+ * each colour, as celspan.image accepts them, black, white, how many pixels have ink | nil,
+ * message */
+int cs_scanning_lines(lua_State *L);
+
 /* ---------------------------------------------------------------- tracking */
 
 /* (bytes, width, height, model, {x, y, w, h} [, mask]) -> tracker | nil, message. bytes: RGBA in

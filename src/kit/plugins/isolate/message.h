@@ -89,6 +89,7 @@ typedef struct cs_message_header {
   int32_t has_alpha, is_float, is_linear, is_turned, is_whole, is_sequential;
   int64_t file_size, file_time;
   uint64_t file_number;
+  double dpi;
   int32_t names_colour, has_primaries;
   float primaries[8];
   char format[16], colour[16], space[CS_PICTURE_SPACE], profile[CS_PICTURE_SPACE];

@@ -230,6 +230,12 @@ void read_profile(const ImageSpec &spec, char *out) {
     cs_profile_name_read(found->data(), found->type().size(), out);
 }
 
+double read_dpi(const ImageSpec &spec) {
+  std::string unit = spec.get_string_attribute("ResolutionUnit");
+  double inch = unit == "in" ? 1 : unit == "cm" ? 2.54 : unit == "m" ? 0.0254 : 0;
+  return inch * double(spec.get_float_attribute("XResolution"));
+}
+
 void describe(const cs_picture_reader &reader, cs_picture_header *header) {
   const ImageSpec &spec = reader.spec;
   *header = {};
@@ -247,6 +253,7 @@ void describe(const cs_picture_reader &reader, cs_picture_header *header) {
   header->has_primaries = read_primaries(reader, header->primaries);
   header->alpha = is_multiplied(reader) ? CS_PICTURE_ALPHA_CODED : CS_PICTURE_ALPHA_STRAIGHT;
   header->bits = coded_bits(spec);
+  header->dpi = read_dpi(spec);
   header->is_linear = reader.has_space;
   header->is_turned = reader.orientation != 1;
   header->is_whole = reader.kind.is_whole;

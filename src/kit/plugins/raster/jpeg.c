@@ -100,6 +100,8 @@ static void choose_form(reading *r) {
   r->jpeg.out_color_space = space == JCS_GRAYSCALE ? JCS_GRAYSCALE : is_ink ? JCS_CMYK : JCS_RGB;
   r->out->channels = space == JCS_GRAYSCALE ? 1 : 3;
   r->out->bits = 8;
+  if (r->jpeg.density_unit == 1 || r->jpeg.density_unit == 2) /* dots per inch, or centimetre */
+    r->out->dpi = (r->jpeg.density_unit == 1 ? 1 : 2.54) * r->jpeg.X_density;
   r->out->colour = "srgb";
 }
 

@@ -100,6 +100,7 @@ static void describe(const cs_raster *raster, const struct stat *found, cs_pictu
                .is_float = raster->bits == 32 && !raster->is_whole},
       .alpha = raster->is_multiplied ? CS_PICTURE_ALPHA_CODED : CS_PICTURE_ALPHA_STRAIGHT,
       .bits = raster->bits == 32 ? 0 : raster->bits,
+      .dpi = raster->dpi,
       .is_whole = true,
       .file_size = (int64_t)found->st_size,
       .file_time = (int64_t)found->st_mtim.tv_sec * 1000000000 + found->st_mtim.tv_nsec,

@@ -47,6 +47,7 @@ static int choose_form(reading *r) {
   png_read_update_info(r->png, r->info);
   r->out->channels = png_get_channels(r->png, r->info);
   r->out->bits = png_get_bit_depth(r->png, r->info);
+  r->out->dpi = 0.0254 * png_get_x_pixels_per_meter(r->png, r->info);
   return passes;
 }
 

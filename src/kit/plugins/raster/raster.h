@@ -24,6 +24,7 @@ typedef struct cs_raster {
   bool is_whole;    /* the floats are shares of whole numbers in the file */
   bool lacks_alpha; /* the file has none: that in `pixels` says where the file has pixels */
   int orientation;  /* TIFF's: 1 upright .. 8 */
+  double dpi;       /* 0: the file does not say */
   bool is_multiplied;
   cs_picture_part *parts; /* what else is in the file; owned; NULL: nothing */
   int part_count;

@@ -58,6 +58,13 @@ static uint16_t extra_kind(const reading *r) {
   return count == 1 && kinds ? kinds[0] : 0;
 }
 
+static double dpi_of(const reading *r) {
+  float across = 0;
+  uint16_t unit = field(r, TIFFTAG_RESOLUTIONUNIT);
+  double inch = unit == RESUNIT_INCH ? 1 : unit == RESUNIT_CENTIMETER ? 2.54 : 0;
+  return TIFFGetField(r->tiff, TIFFTAG_XRESOLUTION, &across) ? inch * (double)across : 0;
+}
+
 /* Whether rows can be read as they are stored; if so, sets the form. */
 static bool choose_form(reading *r) {
   uint16_t kind = field(r, TIFFTAG_SAMPLEFORMAT), photometric = field(r, TIFFTAG_PHOTOMETRIC);
@@ -68,6 +75,7 @@ static bool choose_form(reading *r) {
   bool is_plain = colours && (channels == colours || channels == colours + 1) &&
                   (is_float || is_whole) && field(r, TIFFTAG_PLANARCONFIG) == PLANARCONFIG_CONTIG;
   r->out->orientation = field(r, TIFFTAG_ORIENTATION);
+  r->out->dpi = dpi_of(r);
   r->out->colour = is_plain && is_float ? "linear" : "srgb";
   r->out->channels = is_plain ? channels : 4;
   r->out->bits = is_plain ? bits : 8;

@@ -1,0 +1,46 @@
+/* A scanned drawing in memory: its pixels, how bright its paper is, and where the paper ends.
+ *
+ *   picture --trace/colours.h--> codes --> spots, the mean brightness of side x side pixels
+ *                                            |--> edges: a straight line along each side
+ *                                            '--> field: the paper's brightness, at posts
+ *
+ * The field follows the shadow of a binding and the lamp of a scanner, but neither what is drawn
+ * nor holes: what is narrower than about 20 millimetres on A4 is filled in, dark or bright.
+ *
+ * INVARIANT: brightness is that of sRGB's codes, 0..1. Everything is a function of the pixels.
+ */
+#pragma once
+
+#include "tools/trace/colours.h"
+
+#define CS_ROUGH_HOLES 16
+
+typedef struct cs_rough {
+  celspan_context *context;
+  cs_scan scan;
+  int32_t side;          /* of a spot, in pixels */
+  int32_t width, height; /* in spots */
+  float *spots;          /* row-major */
+  float paper[3];        /* the codes of the paper, 0..1 */
+  /* Left, top, right, bottom: how many pixels a side of the paper lies inside of the picture, at
+   * the beginning of the picture's side, and how many more with each pixel along it. */
+  double edges[4][2];
+  bool has_edge[4];                  /* the paper ends inside of the picture */
+  int32_t across, down;              /* posts of the field */
+  float *field;                      /* row-major */
+  celspan_box holes[CS_ROUGH_HOLES]; /* in pixels: what was found of holes.h */
+  size_t hole_count;
+} cs_rough;
+
+static inline float cs_rough_brightness(const unsigned char *code) {
+  return (float)(77 * code[0] + 150 * code[1] + 29 * code[2]) * (1.0f / (255 * 256));
+}
+
+/* Errors: those of pictures; LIMIT; NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_rough_create(celspan_context *context, const cs_picture *picture,
+                                               cs_rough **out);
+void cs_rough_destroy(cs_rough *page); /* NULL is ignored */
+/* The columns first .. end - 1 of row y that lie on the paper, `margin` pixels from its ends. */
+void cs_rough_row(const cs_rough *page, int32_t y, double margin, int32_t *first, int32_t *end);
+/* The field at the middles of the pixels of row y: as many numbers as the picture is wide. */
+void cs_rough_field(const cs_rough *page, int32_t y, float *row);
