@@ -51,9 +51,11 @@ static float mean_at(const cs_rough *page, int32_t x, int32_t y) {
   return sum / 9;
 }
 
-static bool may_be_hole(float spot, float paper, bool is_bright) {
-  float white = 0.4f * (1 - paper), least = BRIGHTER * paper;
-  return is_bright ? spot > paper + (white > least ? white : least) : spot < paper * (1 - DARKER);
+/* A bright hole is as white as the light, which a shadow dims as much as the paper. */
+static bool may_be_hole(const cs_rough *page, float spot, float paper, bool is_bright) {
+  float white = 0.4f * (1 / page->paper[1] - 1);
+  float least = white > BRIGHTER ? white : BRIGHTER;
+  return is_bright ? spot > paper * (1 + least) : spot < paper * (1 - DARKER);
 }
 
 static void mark_row(const cs_rough *page, int32_t y, bool is_bright, float *field, uint8_t *row) {
@@ -63,7 +65,7 @@ static void mark_row(const cs_rough *page, int32_t y, bool is_bright, float *fie
   for (int32_t x = 0; x < page->width; x++) {
     float paper = field[x * page->side + page->side / 2];
     bool is_inside = x * page->side >= first && (x + 1) * page->side <= end;
-    row[x] = is_inside && may_be_hole(mean_at(page, x, y), paper, is_bright);
+    row[x] = is_inside && may_be_hole(page, mean_at(page, x, y), paper, is_bright);
   }
 }
 
@@ -200,7 +202,7 @@ static void try_pairs(const search *s, const size_t hole[2], laying *best) {
 /* How far the pixels of a row of a box are from the paper, as shades. */
 typedef struct shading {
   const cs_rough *page;
-  float paper;
+  float *paper; /* the field of the row */
 } shading;
 
 /* The mean of a square, in which grain is little and the middle of a hole stays where it is. */
@@ -213,16 +215,18 @@ static uint8_t shade_at(const shading *s, int32_t x, int32_t y) {
   for (int32_t v = y0; v <= y1; v++)
     for (int32_t u = x0; u <= x1; u++)
       sum += cs_rough_brightness(cs_scan_at(scan, u, v));
-  float share = sum / ((float)((x1 - x0 + 1) * (y1 - y0 + 1)) * s->paper);
+  float share = sum / ((float)((x1 - x0 + 1) * (y1 - y0 + 1)) * s->paper[x]);
   return (uint8_t)cs_number_clampf(fabsf(1 - share) * (SHADES - 1) + 0.5f, 0, SHADES - 1);
 }
 
 /* The shade of the inside: of most pixels of the box. */
 static int inside_of(const shading *s, const celspan_rectangle *box) {
   uint32_t counts[SHADES] = {0}, below = 0;
-  for (int32_t y = box->y; y < box->y + box->height; y++)
+  for (int32_t y = box->y; y < box->y + box->height; y++) {
+    cs_rough_field(s->page, y, s->paper);
     for (int32_t x = box->x; x < box->x + box->width; x++)
       counts[shade_at(s, x, y)]++;
+  }
   uint32_t wanted = (uint32_t)(box->width * box->height) / 10 * 7;
   int shade = 0;
   while (shade < SHADES - 1 && (below += counts[shade]) <= wanted)
@@ -235,13 +239,15 @@ static int inside_of(const shading *s, const celspan_rectangle *box) {
 static celspan_point middle_in(const shading *s, const celspan_rectangle *box) {
   double sum = 0, across = 0, down = 0;
   float inside = (float)inside_of(s, box);
-  for (int32_t y = box->y; y < box->y + box->height; y++)
+  for (int32_t y = box->y; y < box->y + box->height; y++) {
+    cs_rough_field(s->page, y, s->paper);
     for (int32_t x = box->x; x < box->x + box->width; x++) {
       float cover = cs_number_clampf(2 * (float)shade_at(s, x, y) / inside - 0.5f, 0, 1);
       sum += (double)cover;
       across += (double)cover * (x + 0.5);
       down += (double)cover * (y + 0.5);
     }
+  }
   return sum > 0 ? (celspan_point){across / sum, down / sum}
                  : (celspan_point){box->x + box->width / 2.0, box->y + box->height / 2.0};
 }
@@ -261,9 +267,7 @@ static celspan_rectangle around(const search *s, const cs_blot *blot, double mil
 /* The middle of a hole, which the page keeps with some rim, in pixels. */
 static celspan_point measure(const search *s, const cs_blot *blot, float *row) {
   celspan_rectangle box = around(s, blot, 0.6), rim = around(s, blot, 1.2);
-  celspan_point middle = middle_of(blot);
-  cs_rough_field(s->page, (int32_t)(middle.y * s->page->side), row);
-  shading shades = {s->page, row[(int32_t)(middle.x * s->page->side)]};
+  shading shades = {s->page, row};
   s->page->holes[s->page->hole_count++] = (celspan_box){rim.x, rim.y, rim.width, rim.height};
   return middle_in(&shades, &box);
 }
