@@ -1,6 +1,6 @@
 /* The sweep's vector code gives the same bits with every instruction set.
  */
-#include "engine/area/crowd.h"
+#include "engine/area/crowd_solver.h"
 #include "engine/area/edges.h"
 #include "engine/row/centre.h"
 #include "engine/sweep/advance.h"
@@ -189,58 +189,30 @@ static void check_strays(cs_isa isa, test_random *random) {
   CHECK(strays || odd < first || odd > end);
 }
 
-enum { SAMPLES = 5 * CS_CROWD_SUMS, LINES = 4 };
-
-/* Whether a line passes left of a sample, or through it. */
-static bool is_passed(const cs_crowd_line *line, float x, float y) {
-  return y >= line->top && y < line->foot && line->x + line->slope * (y - line->top) <= x;
-}
-
-static cs_crowd_line random_line(test_random *random) {
-  cs_crowd_line line = {.foot = 1, .direction = random_below(random, 2) ? 1 : -1};
-  line.x = (float)random_between(random, -1, 2);
-  line.slope = (float)random_between(random, -3, 3);
-  if (random_below(random, 2))
-    line.top = (float)random_between(random, 0, 0.6);
-  if (random_below(random, 2))
-    line.foot = (float)random_between(random, line.top, 1);
-  return line;
-}
-
-/* What the samples inside a layer let through is the same to the bit; and they are those inside. */
-static void check_crowd(cs_isa isa, test_random *random) {
-  cs_crowd_lattice lattice = {.count = SAMPLES};
-  cs_crowd_line lines[LINES];
-  int32_t inside[SAMPLES], base = random_below(random, 3) - 1,
-                           mask = random_below(random, 2) ? -1 : 1;
-  int32_t low = INT32_MAX, high = INT32_MIN, count = 0, wrong = 0;
-  float through[SAMPLES], expected[SAMPLES];
-  size_t line_count = (size_t)random_below(random, LINES + 1);
-  for (size_t i = 0; i < line_count; i++)
-    lines[i] = random_line(random);
-  for (int32_t k = 0; k < SAMPLES; k++) {
-    lattice.x[k] = (float)random_between(random, 0, 1);
-    lattice.y[k] = ((float)k + 0.5f) / SAMPLES;
-    through[k] = expected[k] = (float)random_between(random, 0, 1);
+/* Sums over pairs of lines of a pixel are the same to the bit. */
+static void check_joint(cs_isa isa, test_random *random) {
+  enum { LINES = 3 * CS_CROWD_SUMS };
+  float numbers[6][LINES] = {{0}};
+  const cs_crowd_numbers n = {numbers[0], numbers[1], numbers[2],
+                              numbers[3], numbers[4], numbers[5]};
+  size_t first = (size_t)random_below(random, LINES), end = (size_t)random_below(random, LINES);
+  double expected = 0;
+  for (size_t k = 0; k < LINES; k++) {
+    n.x[k] = (float)random_below(random, CS_CROWD_UNIT);
+    n.top[k] = (float)random_below(random, CS_CROWD_UNIT / 2);
+    n.foot[k] = n.top[k] + 1 + (float)random_below(random, CS_CROWD_UNIT / 2);
+    n.direction[k] = random_below(random, 2) ? 1 : -1;
+    n.weight[k] = k < first ? (float)random_between(random, -1, 1) : 0;
   }
-  cs_crowd_cover cover =
-      CS_WIDE_CHOOSE(isa, cs_crowd_find)(&lattice, lines, line_count, base, mask, inside);
-  for (int32_t k = 0; k < SAMPLES; k++) {
-    int32_t winding = base;
-    for (size_t i = 0; i < line_count; i++)
-      winding += is_passed(&lines[i], lattice.x[k], lattice.y[k]) ? lines[i].direction : 0;
-    low = winding < low ? winding : low;
-    high = winding > high ? winding : high;
-    count += (winding & mask) != 0;
-    wrong += inside[k] != ((winding & mask) != 0 ? -1 : 0);
-  }
-  CHECK(wrong == 0 && cover.count == count && cover.low == low && cover.high == high);
-  float sum = CS_WIDE_CHOOSE(isa, cs_crowd_dim)(through, inside, SAMPLES, 0.3f);
-  CHECK(sum == cs_crowd_dim_any(expected, inside, SAMPLES, 0.3f));
-  CHECK(memcmp(through, expected, sizeof through) == 0);
-  for (int32_t k = 0; k < SAMPLES; k++)
-    sum -= inside[k] != 0 ? through[k] / 0.7f : 0;
-  CHECK(fabsf(sum) < 1e-4f);
+  for (size_t k = first; k < end; k++)
+    for (size_t i = 0; i < first; i++) {
+      double high = fmin(n.foot[i], n.foot[k]) - fmax(n.top[i], n.top[k]);
+      expected +=
+          n.direction[k] * n.weight[i] * fmax(high, 0) * 2 * (CS_CROWD_UNIT - fmax(n.x[i], n.x[k]));
+    }
+  float joint = CS_WIDE_CHOOSE(isa, cs_crowd_solver_joint)(&n, first, end);
+  CHECK(joint == cs_crowd_solver_joint_any(&n, first, end));
+  CHECK(fabs(joint - expected) <= 1e-4 * CS_CROWD_TWICE);
 }
 
 int main(void) {
@@ -253,7 +225,7 @@ int main(void) {
       check_centres((cs_isa)isa, &random);
       check_vertices((cs_isa)isa, &random);
       check_strays((cs_isa)isa, &random);
-      check_crowd((cs_isa)isa, &random);
+      check_joint((cs_isa)isa, &random);
     }
   }
   return check_done();

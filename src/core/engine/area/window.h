@@ -87,5 +87,12 @@ CELSPAN_CHECKED celspan_status cs_window_edges(cs_window *window, cs_direct_edge
 static inline void cs_window_end_item(cs_window *window, const cs_cell *cell) {
   window->cell = cell;
 }
+/* Lets the window that has been begun at a column begin with another cell, if nothing is in it yet.
+ * Returns whether it does. */
+static inline bool cs_window_begin_with(cs_window *window, int32_t column, const cs_cell *cell) {
+  bool is_new = window->from == column && window->end == column && window->border_count == 0;
+  window->base = is_new ? cell : window->base;
+  return is_new;
+}
 /* Closes the last window and writes the rest of the row. */
 CELSPAN_CHECKED celspan_status cs_window_end_row(cs_window *window);

@@ -30,7 +30,7 @@
  *   engine/paint/over_channels.h  the same for gradients that dim all channels alike;
  *   engine/paint/over_bare.h  the same for pictures alone, shown unchanged;
  *   engine/map/sheets.h  drawings that have a map, one over the other;
- *   engine/area/crowd.c  the samples of a pixel that very many edges cross.
+ *   engine/area/crowd_solver.c  what the edges in one pixel of a crowd divide.
  * Names and arithmetic are the same in the first three.
  */
 #pragma once
