@@ -4,8 +4,9 @@
 #include "base/number.h"
 #include "base/sort.h"
 
-#define LEAST 32  /* the least number of boundaries of a crowd */
-#define A_PIXEL 6 /* the least number of them in a pixel, on the average */
+#define LEAST 8   /* the least number of boundaries of a crowd */
+#define A_PIXEL 2 /* the least number of them in a pixel, on the average */
+#define EACH 4    /* the most columns that an edge crosses, on the average */
 #define NOBODY UINT32_MAX
 #define STRONG 0.51f  /* a layer that hides more than this is strong */
 #define STRONG_EACH 4 /* at most one edge in STRONG_EACH may belong to a strong layer */
@@ -44,7 +45,8 @@ bool cs_crowd_suits(const cs_intervals *intervals, const cs_interval *interval,
   }
   int32_t columns =
       cs_edges_ceil(interval->extent.high, width) - cs_edges_floor(interval->extent.low, width);
-  return crossed >= A_PIXEL * (size_t)columns && STRONG_EACH * strong <= members;
+  return crossed >= A_PIXEL * (size_t)columns && crossed <= EACH * members &&
+         STRONG_EACH * strong <= members;
 }
 
 /* ---------------------------------------------------------------- segments */
@@ -288,7 +290,7 @@ static celspan_status pass_column(drawing *d, int32_t p, cs_v4 *colour, bool *is
   crowd->here_count = crowd->next_count;
   crowd->next = here;
   crowd->next_capacity = capacity;
-  return CELSPAN_OK;
+  return pixel->failure;
 }
 
 /* ---------------------------------------------------------------- the interval */
@@ -366,6 +368,7 @@ celspan_status cs_crowd_draw(cs_crowd *crowd, cs_local_sweep *sweep, cs_extent e
                .end = cs_edges_ceil(extent.high, width),
                .left = sweep->left};
   crowd->pixel.composer = d.composer;
+  crowd->pixel.failure = CELSPAN_OK;
   crowd->here_count = crowd->crossing_count = 0;
   cs_crowd_pixel_forget(&crowd->pixel);
   celspan_status status = draw_columns(&d, right);

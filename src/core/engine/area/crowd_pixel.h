@@ -32,7 +32,7 @@ typedef struct cs_crowd_pixel {
   size_t place;         /* of the walk through the whole layers */
   cs_v4 light, through; /* of whole layers since the last partial one; and all of them */
   bool is_hidden;
-  celspan_status failure;
+  celspan_status failure; /* the first failure; kept until the interval ends */
 } cs_crowd_pixel;
 
 void cs_crowd_pixel_finish(cs_crowd_pixel *pixel, cs_memory *memory);
