@@ -8,8 +8,10 @@
 -- What has no partner grows from its middle, or shrinks to it. The match is made once for two
 -- objects, and kept as long as they are.
 local celspan = require "celspan"
+local arcs = require "celspan.arcs"
 local native = require "celspan.native"
 local fields = require "celspan.fields"
+local likeness = require "celspan.likeness"
 local outlines = require "celspan.outlines"
 
 local morph = {}
@@ -72,7 +74,8 @@ local function plan_outlines(p, q, steering)
   end
   local match = outlines.match(p.contours, q.contours, steering, refuse)
   return function(u)
-    local contours, style = outlines.between(match, u), u < 0.5 and p or q
+    local contours = outlines.between(match, arcs.field(steering.places, u))
+    local style = u < 0.5 and p or q
     return finish(painted(p, q, u, function(texture)
       if not p.line then
         return celspan.path { contours = contours, rule = style.rule, texture = texture }
@@ -85,10 +88,10 @@ local function plan_outlines(p, q, steering)
 end
 
 --- The operands of a union with their partners, in order. An operand of the second union without a
---- partner follows the partner of the operand before it. names: pairs of names from the script.
-local function partners(p, q, names)
+--- partner follows the partner of the operand before it.
+local function partners(p, q, steering)
   local wanted, by_name, taken, list = {}, {}, {}, {}
-  for _, pair in ipairs(names) do wanted[pair[1]] = pair[2] end
+  for _, pair in ipairs(steering.names) do wanted[pair[1]] = pair[2] end
   local rest = {}
   for _, node in ipairs(q) do
     if node.name ~= "" then by_name[node.name] = by_name[node.name] or node end
@@ -100,8 +103,10 @@ local function partners(p, q, names)
   for _, node in ipairs(q) do
     if not taken[node] and node.name == "" then rest[#rest + 1] = node end
   end
+  local found = steering.unsure and likeness.partners(p, rest, steering)
   for _, node in ipairs(p) do
-    local partner = node.name == "" and table.remove(rest, 1)
+    local partner = node.name == "" and (found or rest)[found and node or 1]
+    if partner and not found then table.remove(rest, 1) end
     if partner then taken[partner], taken[node] = node, partner end
     list[#list + 1] = { node, taken[node] }
   end
@@ -121,7 +126,7 @@ local plan -- for two nodes: a function of u
 
 local function plan_union(p, q, steering)
   local plans = {}
-  for i, pair in ipairs(partners(p, q, steering.names)) do
+  for i, pair in ipairs(partners(p, q, steering)) do
     local first, second = pair[1], pair[2]
     if first and second then
       plans[i] = plan(first, second, steering)
@@ -166,6 +171,19 @@ end
 
 -- ---------------------------------------------------------------- pairs
 
+--- From where to where, and the angle of the arc; 0 for a straight way.
+local function read_places(i, pair)
+  local first, last, turn = pair[1], pair[3] or pair[2], 0
+  for _, point in ipairs(pair) do
+    fields.numbers("morph", ("pair %d: its value %%d"):format(i), point, 2, "{x, y}")
+  end
+  if pair[3] then
+    turn = arcs.turn(first, pair[2], last)
+      or refuse("pair %d: no circle goes from its first place through the second to the third", i)
+  end
+  return { first[1], first[2], last[1], last[2], turn }
+end
+
 --- The pairs of names, and the pairs of places; `key` is the same for the same pairs.
 local function read_pairs(list)
   local steering, key = { names = {}, places = {} }, {}
@@ -176,14 +194,11 @@ local function read_pairs(list)
       steering.names[#steering.names + 1] = pair
       key[#key + 1] = ("%q %q"):format(first, second)
     elseif type(first) == "table" and type(second) == "table" then
-      for _, point in ipairs(pair) do
-        fields.numbers("morph", ("pair %d: its value %%d"):format(i), point, 2, "{x, y}")
-      end
-      local place = { first[1], first[2], second[1], second[2] }
+      local place = read_places(i, pair)
       steering.places[#steering.places + 1] = place
-      key[#key + 1] = ("%a %a %a %a"):format(table.unpack(place))
+      key[#key + 1] = ("%a %a %a %a %a"):format(table.unpack(place))
     else
-      refuse("pair %d must be two places {{x, y}, {x, y}} or two names of parts, got %s", i,
+      refuse("pair %d must be two places {{x, y}, {x, y}}, three, or two names of parts, got %s", i,
         fields.kind(pair))
     end
   end
@@ -209,19 +224,23 @@ local function check_names(p, q, names)
   end
 end
 
---- Assigns each pair of places to the nearest outline of `a`.
-local function assign(node, steering)
-  local function nearest(at, place, best)
-    for _, contour in ipairs(at.contours or {}) do
-      local distance = outlines.distance(contour, place[1], place[2])
-      if distance < best.distance then best.distance, best.contours = distance, at.contours end
-    end
-    for _, child in ipairs(at) do nearest(child, place, best) end
+--- The contours of the outline that is nearest to a place.
+local function nearest(node, x, y, best)
+  for _, contour in ipairs(node.contours or {}) do
+    local distance = outlines.distance(contour, x, y)
+    if distance < best.distance then best.distance, best.contours = distance, node.contours end
   end
+  for _, child in ipairs(node) do nearest(child, x, y, best) end
+  return best.contours
+end
+
+--- Assigns each pair of places to the nearest outlines of both nodes.
+local function assign(p, q, steering)
+  steering.given = {}
   for _, place in ipairs(steering.places) do
-    local best = { distance = math.huge }
-    nearest(node, place, best)
-    place.contours = best.contours
+    place.contours = nearest(p, place[1], place[2], { distance = math.huge })
+    steering.given[place.contours or place] =
+      nearest(q, place[3], place[4], { distance = math.huge })
   end
 end
 
@@ -229,19 +248,28 @@ end
 
 local kept = setmetatable({}, { __mode = "k" })
 
---- The plan for two objects; it is made on first use.
-local function plan_of(a, b, list)
+--- The plan for two objects, which is made on first use, and its steering. by_place: pieces without
+--- names are matched by likeness, not in order.
+local function plan_of(a, b, list, by_place)
   local steering, key = read_pairs(list)
   kept[a] = kept[a] or setmetatable({}, { __mode = "k" })
   kept[a][b] = kept[a][b] or {}
   local plans = kept[a][b]
+  if by_place then steering.unsure, key = {}, key .. ";by place" end
   if not plans[key] then
     local p, q = native.anatomy(a), native.anatomy(b)
     check_names(p, q, steering.names)
-    assign(p, steering)
-    plans[key] = plan(p, q, steering)
+    assign(p, q, steering)
+    plans[key] = { make = plan(p, q, steering), unsure = steering.unsure }
   end
   return plans[key]
+end
+
+--- The object between two drawings, whose pieces without names are matched by place, length and
+--- direction; and the list of pairs that are not sure, as of likeness.partners.
+function morph.drawings(a, b, u, list)
+  local made = plan_of(a, b, list, true)
+  return u <= 0 and a or u >= 1 and b or made.make(u), made.unsure
 end
 
 --- The object between two others. Outlines are matched by length and turning, parts by name and in
@@ -249,7 +277,7 @@ end
 ---@param a celspan.object
 ---@param b celspan.object
 ---@param u number Limited to 0..1
----@param options? { pairs?: table[] } Two places {{x, y}, {x, y}} or two names of parts each
+---@param options? { pairs?: table[] } Two places {{x, y}, {x, y}}, three on an arc, or two names of parts each
 ---@return celspan.object
 function morph.between(a, b, u, options)
   fields.check("morph", options or {}, { pairs = "table" })
@@ -264,7 +292,7 @@ function morph.between(a, b, u, options)
     read_pairs(list) -- only to refuse mistakes in the list; nothing must be matched
     return u <= 0 and a or b
   end
-  return plan_of(a, b, list)(u)
+  return plan_of(a, b, list).make(u)
 end
 
 return fields.seal("morph", morph)

@@ -470,12 +470,17 @@ function outlines.match(a, b, steering, refuse)
   return match
 end
 
---- The contours between the sides of a match.
-function outlines.between(match, u)
+--- The contours between the sides of a match. way: a field of arcs.lua.
+function outlines.between(match, way)
   local contours = {}
   for n, pair in ipairs(match) do
     local p, q, contour = pair[1], pair[2], { closed = not pair.open }
-    for i = 1, #p do contour[i] = p[i] + (q[i] - p[i]) * u end
+    for i = 1, #p, 2 do
+      local x, y = q[i] - p[i], q[i + 1] - p[i + 1]
+      local along, across = way(p[i], p[i + 1])
+      contour[i] = p[i] + x * along - y * across
+      contour[i + 1] = p[i + 1] + y * along + x * across
+    end
     contours[n] = contour
   end
   return contours

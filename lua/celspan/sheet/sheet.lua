@@ -10,6 +10,7 @@ local columns = require "celspan.columns"
 local native = require "celspan.native"
 local fields = require "celspan.fields"
 local files = require "celspan.files"
+local sheet_between = require "celspan.sheet_between"
 local sheet_csv = require "celspan.sheet_csv"
 local sheet_film = require "celspan.sheet_film"
 local sheet_krita = require "celspan.sheet_krita"
@@ -358,51 +359,78 @@ local function by_pattern(name, layer, pattern)
     .. pattern:sub(last)
 end
 
-local function missing(name, layer, frame, where)
-  native.refuse(("sheet: drawing: layer %q shows %q at frame %d, which is missing from %s")
-    :format(layer, name, frame, where))
-end
-
-local function from_tree(tree, name, layer, frame)
+local function from_tree(tree, name, layer)
   local entry = tree:find(layer .. "/" .. name) or tree:find(name) or tree:find(layer)
-  return entry and entry.object or missing(name, layer, frame, "the layers")
+  return entry and entry.object
 end
 
-local function from_table(list, name, layer, frame)
+local function from_table(list, name)
   local found = rawget(list, name)
   if found == nil then found = rawget(list, math.tointeger(tonumber(name)) or name) end
-  if found == nil then missing(name, layer, frame, "the table") end
   return found
+end
+
+--- A function from a name to the drawing, or nil, and where it looks, in words.
+local function finder(drawings, layer)
+  local kind = type(drawings)
+  if kind == "function" then return drawings, "the function" end
+  if kind == "string" then
+    return function(name) return celspan.image { file = by_pattern(name, layer, drawings) } end,
+      "the files"
+  end
+  fields.expect_kind(kind == "table", drawings,
+    "sheet: drawing: drawings must be a table, a pattern, layers or a function")
+  if (getmetatable(drawings) or {}).__name == "celspan.layers.tree" then
+    return function(name) return from_tree(drawings, name, layer) end, "the layers"
+  end
+  return function(name) return from_table(drawings, name) end, "the table"
 end
 
 --- The sheet's frame at a time in seconds; rounding errors just before a frame are tolerated.
 local function frame_at(self, time) return math.floor(time * self.fps + 1e-6) + 1 end
 
+local function subject_of(self, layer, drawings, options)
+  local column = column_of(self, layer, "drawing")
+  local find, where = finder(drawings, column.name)
+  return { column = column, frames = self.frames, layer = column.name, find = find,
+           where = where, options = options }
+end
+
 --- The object of the drawing that a layer shows at a frame; nil if the layer is empty.
 ---@param layer string|integer
 ---@param f celspan.frame|integer The film's frame, or one of the sheet, from 1
----@param drawings table|string|fun(name: string): celspan.object A table by name, "hand_####.png", "hand_*.png", layers, or a function
+---@param drawings table|string|fun(name: string): celspan.object? A table by name, "hand_####.png", "hand_*.png", layers, or a function
+---@param options? { between?: boolean, charts?: table<string, number[]|string|function>, pairs?: table }
 ---@return celspan.object? object
-function methods:drawing(layer, f, drawings)
+function methods:drawing(layer, f, drawings, options)
   fields.self("sheet", Sheet, self, "drawing")
-  local place = place_of(self, layer, "drawing")
-  local name_of_layer = self.layers[place]
   local frame = f
   if type(f) == "userdata" then frame = frame_at(self, f.time) end
   frame = check_frame(frame, "drawing")
-  local name = self:at(place, frame)
+  local subject = subject_of(self, layer, drawings, options)
+  if options ~= nil and sheet_between.read(subject) then
+    return sheet_between.drawing(subject, frame)
+  end
+  local name = self:at(layer, frame)
   if not name then return nil end
-  local kind = type(drawings)
-  if kind == "function" then return drawings(name) end
-  if kind == "string" then
-    return celspan.image { file = by_pattern(name, name_of_layer, drawings) }
+  local found = subject.find(name)
+  if found == nil and type(drawings) ~= "function" then
+    sheet_between.missing(subject, name, frame)
   end
-  fields.expect_kind(kind == "table", drawings,
-    "sheet: drawing: drawings must be a table, a pattern, layers or a function")
-  if (getmetatable(drawings) or {}).__name == "celspan.layers.tree" then
-    return (from_tree(drawings, name, name_of_layer, frame))
-  end
-  return (from_table(drawings, name, name_of_layer, frame, 2))
+  return found
+end
+
+--- For each run of a layer its `name`, the frames of its keys (`from`, `to`) and of its in-betweens
+--- (`frames`), their `shares`, and, with drawings, `unsure`: pairs of places.
+---@param layer string|integer
+---@param drawings? table|string|fun(name: string): celspan.object?
+---@param options? { between?: boolean, charts?: table<string, number[]|string|function>, pairs?: table }
+---@return table[] charts
+function methods:charts(layer, drawings, options)
+  fields.self("sheet", Sheet, self, "charts")
+  local subject = subject_of(self, layer, drawings or function() return true end, options or {})
+  sheet_between.read(subject)
+  return sheet_between.charts(subject, drawings ~= nil)
 end
 
 -- ---------------------------------------------------------------- writing
