@@ -329,11 +329,15 @@ static const cs_option TILES[] = {
     {0}};
 
 static const cs_option SHEET[] = {
-    OUTPUT("OUT", "shot.xdts, shot.csv (TVPaint, Krita) or shot.txt, or an edit list, cut.otio or "
-                  "cut.edl; default: text on standard output"),
+    OUTPUT("OUT", "shot.xdts, shot.csv (TVPaint, Krita) or shot.txt, an edit list, cut.otio or "
+                  "cut.edl, or on "
+                  "paper, cut.pdf; default: text on standard output"),
     FRAMES,
     {"--media", "NAME", &cs_argument_text,
      "the file of each shot in an edit list, with {name} for its name, as in shots/{name}.mov"},
+    {"--paper", "SIZE", &cs_argument_text,
+     "of a sheet on paper, -o cut.pdf: a4 or a3; default: a4"},
+    {"--font", "FILE", &cs_argument_file, "of its letters; default: capitals of celspan's own"},
     JSON,
     SCRIPT,
     {0}};
@@ -355,6 +359,9 @@ static const cs_option SOUND[] = {
 static const cs_option CONTACT[] = {
     OUTPUT("SHEET", "the picture to make; sheet.####.png for several pages"),
     FRAMES,
+    {"--camera", NULL, NULL,
+     "the way of the camera over the background instead: a rectangle for each second"},
+    {"--palette", NULL, NULL, "the main colours by time instead, and the mean of each shot"},
     {"--grid", "CxR", &cs_argument_grid, "columns and rows of a page; default: 6x4"},
     {"--every", "N", &cs_argument_every, "one frame in N; default: as many as fit on one page"},
     {"--size", "WxH", &cs_argument_size, "pixels of each picture; each axis is scaled separately"},

@@ -10,7 +10,9 @@
 #include "program/film/view.h"
 #include "program/outputs/outputs.h"
 #include "program/outputs/target.h"
+#include "program/outputs/writers.h"
 #include "program/stage/stage.h"
+#include "writers/parcels/plot.h"
 #include "writers/still/still.h"
 
 /* ---------------------------------------------------------------- what a picture holds */
@@ -235,6 +237,41 @@ static int write_frame(lua_State *L) {
   return 0;
 }
 
+/* ---------------------------------------------------------------- frames as pages */
+
+/* Adds a frame of the film that is argument 1 as a page. */
+static celspan_status add_page(lua_State *L, const cs_film_info *film, int64_t number,
+                               cs_plot *pages) {
+  celspan_frame_desc desc = CELSPAN_FRAME_DESC;
+  cs_film_frame frame = {0};
+  cs_plot_facts facts;
+  desc.width = (int32_t)film->width;
+  desc.height = (int32_t)film->height;
+  CS_TRY(cs_lua_film_build(L, 1, number, &frame));
+  cs_film_expose(film, &frame, &desc);
+  celspan_status status = cs_plot_add_frame(pages, &desc, &facts);
+  cs_film_frame_finish(&frame);
+  return status;
+}
+
+/* pages(film, path): writes a film as a PDF with a page for each frame, a point for each unit. */
+static int write_pages(lua_State *L) {
+  const cs_session *session = cs_service_session(L);
+  const char *path = luaL_checkstring(L, 2);
+  cs_film_info film;
+  cs_plot *pages;
+  cs_lua_film_read(L, 1, &film);
+  cs_plot_desc desc = cs_write_describe(session->request, true);
+  desc.flat = CS_FLAT_REGIONS;
+  desc.title = film.title;
+  celspan_status status = cs_plot_begin(session->context, path, &desc, &pages);
+  cs_service_try(L, status);
+  for (int64_t i = 0; i < film.count && status == CELSPAN_OK; i++)
+    status = add_page(L, &film, film.first + i, pages);
+  cs_service_try(L, cs_plot_end(pages, status));
+  return 0;
+}
+
 /* ---------------------------------------------------------------- a picture in memory */
 
 static int release_png(lua_State *L) {
@@ -258,6 +295,6 @@ static int make_png(lua_State *L) {
   return 3;
 }
 
-const luaL_Reg cs_services_pictures[] = {{"picture", read_facts}, {"spans", read_spans},
-                                         {"plane", read_plane},   {"write", write_frame},
-                                         {"png", make_png},       {NULL, NULL}};
+const luaL_Reg cs_services_pictures[] = {
+    {"picture", read_facts}, {"spans", read_spans}, {"plane", read_plane}, {"write", write_frame},
+    {"pages", write_pages},  {"png", make_png},     {NULL, NULL}};

@@ -363,8 +363,11 @@ static int faults(lua_State *L) {
 
 /* ---------------------------------------------------------------- watched films */
 
+/* script:use_camera(rostrum or nil): see stage/stage_change.c; nil: the one of hold_camera. */
 static int use_camera(lua_State *L) {
-  return cs_stage_use_camera(L, &self(L)->script, self(L)->held);
+  opened *f = self(L);
+  const cs_userdata *by = cs_userdata_test(L, 2, &cs_kind_rostrum);
+  return cs_stage_use_camera(L, &f->script, by ? by->handle : f->held);
 }
 
 /* script:hold_camera(): keeps the camera of the frame that was built last, for use_camera. */

@@ -98,6 +98,21 @@ local function make_sheet(script, output)
   end
 end
 
+--- Makes the picture of --camera or --palette, a single one.
+local function make_picture(part, output)
+  for _, name in ipairs { "camera", "palette", "grid", "every", "size", "scale", "onion" } do
+    if request[name] and name ~= (request.camera and "camera" or "palette") then
+      program.usage("--%s does not go with --%s", name, request.camera and "camera" or "palette")
+    end
+  end
+  if program.has_number(output) then
+    program.usage("%s: one picture is made, so its name has no place for a number", output)
+  end
+  program.part(part, program, request, program.script(), number_at, output)
+end
+
 if not request.output then program.usage "-o is missing: give -o sheet.png" end
 program.refuse_target(request.output)
+local picture = request.camera and "way.lua" or request.palette and "colours.lua"
+if picture then return make_picture(picture, request.output) end
 make_sheet(program.script(), request.output)

@@ -31,6 +31,18 @@ function program.still(script, exposures)
     frame = function() return exposures end }
 end
 
+--- The camera of a frame, which is built: x, y and width, nil where they are those of the whole
+--- film, and turn, clockwise in radians; nil: the frame has none.
+function program.camera(script, number)
+  script:build(number)
+  local has_centre, has_width, x, y, width, turn =
+    script:camera():match "^(%d),(%d),([^,]+),([^,]+),([^,]+),([^,]+)$"
+  if not turn then return nil end
+  local is_placed, is_sized = has_centre == "1", has_width == "1"
+  return { x = is_placed and tonumber(x) or nil, y = is_placed and tonumber(y) or nil,
+           width = is_sized and tonumber(width) or nil, turn = tonumber(turn) }
+end
+
 --- What a verb reads for functions that take pictures, and its size: the name of a picture's file;
 --- otherwise a celspan.picture that shows the input.
 function program.pictured(path)

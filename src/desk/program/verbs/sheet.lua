@@ -1,5 +1,5 @@
---- celspan sheet FILE|SCRIPT: an exposure sheet, or the sheet of a film, as text or converted; or
---- the edit list of a film.
+--- celspan sheet FILE|SCRIPT: an exposure sheet, or the sheet of a film, as text, converted, or on
+--- paper; or the edit list of a film.
 local program, request = ...
 local files = require "celspan.files"
 local json = require "celspan.json"
@@ -43,15 +43,47 @@ local function write_edit(script)
   return program.put(list, output, request[1])
 end
 
-if output and output ~= "-" and not is_edit
+--- What a film adds to its sheet on paper.
+local function notes_of(script)
+  local numbers = script and request.frames and script:numbers()
+  return script and program.part("shooting.lua", program, script, numbers) or {}
+end
+
+--- Writes the sheet on paper. Its letters are for the time being in a file beside the output.
+local function print_sheet(made, script)
+  local title = made.name ~= "" and made.name or input:match "[^/]*$":gsub("%.[^.]*$", "")
+  local font = request.font and program.resolve(request.font)
+  local folder, name = output:match "^(.-)([^/]*)$"
+  local own = not font and ("%s.%s.ttf"):format(folder, name:sub(1, 240))
+  program.make_folders(output)
+  if own then program.save(own, program.text "block.ttf") end
+  local is_made, fault = pcall(function()
+    local pages = program.part("paper.lua", program, request, made)
+    program.pages(pages(title, font or program.resolve(own), notes_of(script)), output)
+  end)
+  if own then os.remove(own) end
+  if not is_made then error(fault, 0) end
+end
+
+local is_paper = output and program.has_ending(output, ".pdf")
+if output and output ~= "-" and not is_edit and not is_paper
   and not program.has_ending(output, ".xdts", ".csv", ".txt") then
-  program.usage("-o: '%s' must end in .xdts, .csv, .txt, .otio or .edl", output)
+  program.usage("-o: '%s' must end in .xdts, .csv, .txt, .otio, .edl or .pdf", output)
 end
 if is_edit and (request.frames or not is_script) then
   program.usage("-o: %s is an edit list, which is made of a script, of all its frames", output)
 end
 if request.media and not is_edit then
   program.usage "--media goes with an edit list: -o cut.otio or cut.edl"
+end
+if (request.paper or request.font) and not is_paper then
+  program.usage "--paper and --font go with a sheet on paper: -o cut.pdf"
+end
+if request.font and program.entries(request.font) ~= false then
+  program.fail("input", "%s: is not a file; --font takes a font", request.font)
+end
+if request.paper and request.paper ~= "a4" and request.paper ~= "a3" then
+  program.usage("--paper: '%s' is not a4 or a3", request.paper)
 end
 if output and request.json then program.usage("--json goes to standard output: leave -o out") end
 if request.frames and not is_script then
@@ -64,6 +96,7 @@ if is_edit then return write_edit(script) end
 if script then script:kept("celspan.shots", "mark", "on") end -- the parts of a shot have its name
 local made = script and sheet.of(script, request.frames and { frames = script:numbers() })
   or program.input(sheet.read(input))
+if is_paper then return print_sheet(made, script) end
 if request.json then return print(program.json(facts_of(made))) end
 if output and program.has_ending(output, ".csv") and not made.width then
   program.note("%s has no size: %s says 1920 x 1080", input, output)
