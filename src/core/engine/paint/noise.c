@@ -120,7 +120,8 @@ static void add_octave(const cs_noise *noise, int index, float gain, int32_t cou
   }
 }
 
-void cs_noise_at(const cs_shade *shade, const double *x, int32_t count, double y, double *at) {
+/* count: at most CS_NOISE_PLACES. */
+static void find(const cs_shade *shade, const double *x, int32_t count, double y, double *at) {
   const cs_noise *noise = &shade->texture->variation->noise;
   bool is_sum = view_of(noise->kind).mean > 0;
   double gain = 1;
@@ -136,5 +137,12 @@ void cs_noise_at(const cs_shade *shade, const double *x, int32_t count, double y
   for (int32_t k = 0; k < count; k++) {
     double sum = is_sum ? (double)r.sum[k] : 0.5 + 0.5 * (double)r.sum[k];
     at[k] = r.side[k] >= 0 ? cs_number_clamp(sum, 0, 1) : NAN;
+  }
+}
+
+void cs_noise_at(const cs_shade *shade, const double *x, int32_t count, double y, double *at) {
+  for (int32_t k = 0; k < count; k += CS_NOISE_PLACES) {
+    const int32_t left = count - k;
+    find(shade, x + k, left < CS_NOISE_PLACES ? left : CS_NOISE_PLACES, y, at + k);
   }
 }

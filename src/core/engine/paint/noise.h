@@ -39,5 +39,5 @@ CS_WIDE_DECLARE(void, cs_noise_values,
                 (celspan_noise_kind kind, const cs_noise_places *in, int32_t count, float *out));
 
 /* Where the noise of a shade lies along its stops at places of a row, 0 to 1; not a number behind
- * the horizon. count: at most CS_NOISE_PLACES. */
+ * the horizon. */
 void cs_noise_at(const cs_shade *shade, const double *x, int32_t count, double y, double *at);
