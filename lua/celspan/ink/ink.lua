@@ -2,6 +2,7 @@
 -- read, so that a film pays for what it uses.
 --
 --   ink.scan("rough.####.png")          -- scans, registered by their pegs and cleaned
+--   ink.area { lines, at = { 320, 88 } } -- paint between lines, although they have gaps
 --   ink.recolour(hero, day, night)      -- a drawing in the colours of another palette
 local native = require "celspan.native"
 local fields = require "celspan.fields"
@@ -9,7 +10,8 @@ local fields = require "celspan.fields"
 local ink = {}
 
 --- The private modules, each of which returns its functions by their names here.
-local parts = { recolour = "ink_recolour", scan = "ink_scan" }
+local parts = { area = "ink_area", areas = "ink_area", leak = "ink_area", recolour = "ink_recolour",
+  scan = "ink_scan" }
 
 local refuse = getmetatable(fields.seal("ink", ink)).__index
 

@@ -124,6 +124,20 @@ int cs_scanning_shift(lua_State *L);
  * message */
 int cs_scanning_lines(lua_State *L);
 
+/* ---------------------------------------------------------------- areas between lines */
+
+/* (RGBA whose alpha is the coverage, width, height, gap in pixels) -> areas, the share of the lines
+ * that is thin | nil, message */
+int cs_ink_areas_make(lua_State *L);
+/* (areas, x, y) -> the label of the nearest area, 0 for the outside; whether a line is there */
+int cs_ink_areas_at(lua_State *L);
+/* (areas, x, y [, x, y]) -> x, y, width of the narrowest place on the widest way to the other
+ * point, or to the rim | nil, message */
+int cs_ink_areas_way(lua_State *L);
+/* (areas, labels, whether with their halves of the lines) -> RGBA in which areas that touch differ,
+ * { [label] = "#rrggbb" }, x, y, width, height */
+int cs_ink_areas_picture(lua_State *L);
+
 /* ---------------------------------------------------------------- tracking */
 
 /* (bytes, width, height, model, {x, y, w, h} [, mask]) -> tracker | nil, message. bytes: RGBA in

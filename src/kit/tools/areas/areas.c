@@ -1,0 +1,124 @@
+#include "tools/areas/areas.h"
+
+#include <string.h>
+
+#include "tools/areas/nearest.h"
+
+#define UNKNOWN UINT32_MAX
+
+/* ---------------------------------------------------------------- labels */
+
+/* Gives a pixel the label, and a place in the queue, if it has none. */
+static void take(cs_ink_areas *a, uint32_t *queue, size_t *end, size_t place, uint32_t label) {
+  if (a->walls[place] || a->labels[place] != UNKNOWN)
+    return;
+  a->labels[place] = label;
+  queue[(*end)++] = (uint32_t)place;
+}
+
+/* Labels what hangs together with a pixel by sides. */
+static void flood(cs_ink_areas *a, uint32_t *queue, size_t from, uint32_t label) {
+  const size_t width = (size_t)a->width, size = cs_ink_areas_size(a);
+  size_t end = 0;
+  take(a, queue, &end, from, label);
+  for (size_t i = 0; i < end; i++) {
+    const size_t place = queue[i], x = place % width;
+    if (x > 0)
+      take(a, queue, &end, place - 1, label);
+    if (x + 1 < width)
+      take(a, queue, &end, place + 1, label);
+    if (place >= width)
+      take(a, queue, &end, place - width, label);
+    if (place + width < size)
+      take(a, queue, &end, place + width, label);
+  }
+}
+
+static celspan_status label_all(cs_ink_areas *a, uint32_t *queue) {
+  const cs_area_box none = {a->width, a->height, 0, 0};
+  memset(a->labels, 0xff, cs_ink_areas_size(a) * sizeof *a->labels);
+  for (size_t i = 0; i < cs_ink_areas_size(a); i++) {
+    if (a->walls[i] || a->labels[i] != UNKNOWN)
+      continue;
+    flood(a, queue, i, (uint32_t)a->count);
+    CS_TRY(CS_APPEND(a->context, a->boxes, a->count, a->capacity, none));
+  }
+  return CELSPAN_OK;
+}
+
+/* Gives walls the labels of the areas that are nearest to them. nearest: room for all places. */
+static celspan_status share_walls(cs_ink_areas *a, uint32_t *nearest) {
+  const size_t size = cs_ink_areas_size(a);
+  unsigned char *is_free = cs_mem_array(a->context->memory, size, 1);
+  if (!is_free)
+    return cs_fail_memory(a->context);
+  for (size_t i = 0; i < size; i++)
+    is_free[i] = !a->walls[i];
+  celspan_status status = cs_nearest_find(a->context, is_free, a->width, a->height, nearest);
+  cs_mem_free(a->context->memory, is_free, size);
+  for (size_t i = 0; status == CELSPAN_OK && i < size; i++)
+    a->labels[i] = a->labels[nearest[i]];
+  return status;
+}
+
+static void measure_boxes(cs_ink_areas *a) {
+  for (int32_t y = 0; y < a->height; y++)
+    for (int32_t x = 0; x < a->width; x++) {
+      cs_area_box *box = &a->boxes[a->labels[(size_t)y * (size_t)a->width + (size_t)x]];
+      box->x0 = x < box->x0 ? x : box->x0;
+      box->x1 = x >= box->x1 ? x + 1 : box->x1;
+      box->y0 = y < box->y0 ? y : box->y0;
+      box->y1 = y + 1;
+    }
+}
+
+static celspan_status divide(cs_ink_areas *a) {
+  uint32_t *places;
+  CS_TRY(CS_MAKE(a->context, places, cs_ink_areas_size(a)));
+  celspan_status status = label_all(a, places);
+  if (status == CELSPAN_OK)
+    status = share_walls(a, places);
+  if (status == CELSPAN_OK)
+    measure_boxes(a);
+  cs_mem_free(a->context->memory, places, cs_ink_areas_size(a) * sizeof *places);
+  return status;
+}
+
+/* ---------------------------------------------------------------- the whole */
+
+static celspan_status fill(cs_ink_areas *a, const unsigned char *coverage, double gap) {
+  const size_t size = cs_ink_areas_size(a);
+  CS_TRY(CS_MAKE(a->context, a->coverage, size));
+  CS_TRY(CS_MAKE(a->context, a->walls, size));
+  CS_TRY(CS_MAKE(a->context, a->labels, size));
+  memcpy(a->coverage, coverage, size);
+  for (size_t i = 0; i < size; i++)
+    a->walls[i] = coverage[i] >= 128 ? CS_WALL_INK : CS_WALL_NONE;
+  CS_TRY(cs_ink_areas_close(a, gap));
+  return divide(a);
+}
+
+celspan_status cs_ink_areas_create(celspan_context *context, const unsigned char *coverage,
+                                   int32_t width, int32_t height, double gap, cs_ink_areas **out) {
+  cs_ink_areas *areas;
+  CS_TRY(CS_MAKE(context, areas, 1));
+  *areas = (cs_ink_areas){.context = context, .width = width, .height = height};
+  celspan_status status = fill(areas, coverage, gap);
+  if (status == CELSPAN_OK)
+    *out = areas;
+  else
+    cs_ink_areas_destroy(areas);
+  return status;
+}
+
+void cs_ink_areas_destroy(cs_ink_areas *areas) {
+  if (!areas)
+    return;
+  cs_memory *memory = areas->context->memory;
+  const size_t size = cs_ink_areas_size(areas);
+  cs_mem_free(memory, areas->coverage, size);
+  cs_mem_free(memory, areas->walls, size);
+  cs_mem_free(memory, areas->labels, size * sizeof *areas->labels);
+  cs_mem_free(memory, areas->boxes, areas->capacity * sizeof *areas->boxes);
+  cs_mem_free(memory, areas, sizeof *areas);
+}

@@ -1,0 +1,180 @@
+-- Areas between lines: made drawings whose areas are known, and refusals. With CELSPAN_VERBOSE the
+-- shares are printed.
+local celspan = require "celspan"
+local ink = require "celspan.ink"
+local inked = require "tests.support.inked"
+local raised = require("tests.support.raised").message
+
+local W, H = inked.width, inked.height
+local NOTHING = celspan.union {}
+local FEW = 3 -- pixels: a gap is closed straight, where the line had been curved
+local MANY = 40 -- pixels: paint ran out
+
+local function colour_of(i) return ("#%02x%02xff"):format(i, 255 - i) end
+
+--- The codes of a drawing, with its whole lines above what is painted.
+local function codes(drawing, art)
+  local rostrum = celspan.rostrum { antialias = "none",
+    celspan.cel { art, inked.strokes(drawing, drawing.whole, "black") } }
+  return assert(celspan.pixels(rostrum, { size = { W, H }, film = { W, H } })):bytes()
+end
+
+local function truth_of(drawing)
+  local list = {}
+  for i, cell in ipairs(drawing.cells) do
+    local points = { fill = colour_of(i) }
+    for k = 1, #cell.outline, 2 do
+      points[#points + 1] = { cell.outline[k], cell.outline[k + 1] }
+    end
+    list[i] = celspan.polygon(points)
+  end
+  return celspan.union(list)
+end
+
+--- For each cell how many pixels it lacks, and how many it has beyond.
+local function compare(count, truth, got)
+  local lacks, beyond = {}, {}
+  for i = 1, count do lacks[i], beyond[i] = 0, 0 end
+  for at = 1, #truth, 4 do
+    if truth:sub(at, at + 3) ~= got:sub(at, at + 3) then
+      local i, k = truth:byte(at), got:byte(at)
+      if truth:byte(at + 2) == 255 and lacks[i] then lacks[i] = lacks[i] + 1 end
+      if got:byte(at + 2) == 255 and beyond[k] then beyond[k] = beyond[k] + 1 end
+    end
+  end
+  return lacks, beyond
+end
+
+local function fill(drawing)
+  local seeds = {}
+  for i, cell in ipairs(drawing.cells) do seeds[i] = { cell.x, cell.y, colour_of(i) } end
+  return ink.areas { inked.strokes(drawing, drawing.lines), gap = 12, colours = seeds,
+    fallback = NOTHING }
+end
+
+local function count_cell(sum, cell, lacks, beyond)
+  if cell.has_door then
+    sum.doors, sum.cut = sum.doors + 1, sum.cut + (lacks > FEW and 1 or 0)
+  else
+    sum.areas = sum.areas + 1
+    sum.right = sum.right + (lacks + beyond <= FEW and 1 or 0)
+  end
+  sum.spilled = sum.spilled + (beyond > MANY and 1 or 0)
+end
+
+--- Fills made drawings: how many areas there are and are right, how many have paint of others
+--- without an error, and how many passages there are and are cut.
+local function tally(first, last, has_doors)
+  local sum = { areas = 0, right = 0, spilled = 0, refused = 0, doors = 0, cut = 0 }
+  for seed = first, last do
+    local drawing = inked.make(seed, has_doors)
+    local good, art = pcall(fill, drawing)
+    if not good then sum.refused, art = sum.refused + 1, NOTHING end
+    local lacks, beyond = compare(#drawing.cells, codes(drawing, truth_of(drawing)),
+      codes(drawing, art))
+    for i, cell in ipairs(drawing.cells) do
+      count_cell(sum, cell, lacks[i], beyond[i])
+    end
+  end
+  if os.getenv "CELSPAN_VERBOSE" then
+    for name, value in pairs(sum) do print(has_doors and "with doors" or "plain", name, value) end
+  end
+  return sum
+end
+
+local function check(first, last)
+  local sum = tally(first, last, false)
+  assert.truthy(sum.right >= 0.95 * sum.areas, ("%d of %d are right"):format(sum.right, sum.areas))
+  assert.equal(0, sum.spilled)
+  local doors = tally(first, last, true) -- the end of a stub may take that of a wall
+  assert.truthy(doors.spilled <= 0.003 * doors.areas, doors.spilled .. " areas are spilled into")
+end
+
+describe("areas between lines", function()
+  it("are those of made drawings with gaps", function() check(1, 1) end)
+  it("are closed at tips with notches between pixels", function()
+    assert.equal(0, tally(84, 84, false).refused)
+  end)
+  it("do not take in one that is near a corner of theirs", function() check(41, 41) end)
+  it("are those of 80 made drawings #full", function() check(3, 82) end)
+end)
+
+--- A square of lines with an opening of 9 at its lower right.
+local function square()
+  return celspan.stroke { width = 4, points = { { 200, 189 }, { 200, 100 }, { 100, 100 },
+    { 100, 200 }, { 200, 200 } } }
+end
+
+describe("the area around a point", function()
+  it("says where it runs out, and which gap closes it", function()
+    local leak = ink.leak { square(), at = { 150, 150 }, gap = 6 }
+    assert.near(9, leak.width, 0.5)
+    assert.near(200, leak.at[1], 3)
+    assert.near(193.5, leak.at[2], 2)
+    assert.truthy(leak.gap >= 9 and leak.gap <= 11)
+    assert.equal(nil, ink.leak { square(), at = { 150, 150 }, gap = leak.gap })
+    local text = raised(ink.area, { square(), at = { 150, 150 }, gap = 6 })
+    assert.truthy(text:find "the area at %(150, 150%) runs out through an opening of [%d.]+ at %(")
+    assert.truthy(text:find(("gap = %g would close it"):format(leak.gap), 1, true))
+  end)
+
+  it("is refused on lines and outside, or what is given instead is shown", function()
+    assert.truthy(raised(ink.area, { square(), at = { 100, 150 } })
+      :find "%(100, 150%) lies on a line")
+    assert.truthy(raised(ink.area, { square(), at = { 5, 5 } }):find "is outside")
+    assert.truthy(raised(ink.area, { NOTHING, at = { 5, 5 } }):find "is outside")
+    assert.equal(NOTHING, ink.area { square(), at = { 5, 5 }, fallback = NOTHING })
+  end)
+
+  it("may have a gap that is larger than the picture", function()
+    assert.truthy(ink.area { square(), at = { 150, 150 }, gap = 5000 }:contains(150, 150))
+  end)
+
+  it("reaches to the middle of lines, or to their edge", function()
+    local under = ink.area { square(), at = { 150, 150 }, gap = 12 }
+    local beside = ink.area { square(), at = { 150, 150 }, gap = 12, under = false }
+    assert.truthy(under:contains(100.5, 150))
+    assert.falsy(under:contains(99.5, 150))
+    assert.truthy(beside:contains(102.2, 150))
+    assert.falsy(beside:contains(101.8, 150))
+  end)
+
+  it("is found between lines that are thin", function()
+    local thin = celspan.stroke { width = 0.5, closed = true, points = { { 0, 0 }, { 900, 0 },
+      { 900, 900 }, { 0, 900 } } }
+    assert.truthy(ink.area { thin, at = { 450, 450 }, gap = 0 }:contains(899, 450))
+    assert.truthy(raised(ink.area, { thin, at = { 450, 450 }, scale = 5 })
+      :find "above 0, up to 4%.")
+  end)
+end)
+
+describe("many areas", function()
+  it("are refused where one has two colours", function()
+    local wall = celspan.union { square(), celspan.stroke { width = 4,
+      points = { { 150, 100 }, { 150, 140 } } }, celspan.stroke { width = 4,
+      points = { { 150, 170 }, { 150, 200 } } } }
+    local text = raised(ink.areas, { wall, gap = 12,
+      colours = { { 120, 150, "red" }, { 180, 150, "blue" } } })
+    assert.truthy(text:find("colours[1] and colours[2] are in one area", 1, true))
+    assert.truthy(text:find "an opening of [23][09][%d.]* at %(1%d%d, 155")
+    assert.truthy(text:find "gap = 3%d would close it")
+    assert.truthy(ink.areas { wall, gap = 32, colours = { { 120, 150, "red" },
+      { 180, 150, "blue" } } }:contains(180, 150))
+  end)
+
+  it("may be ten thousand", function()
+    local contours, colours = {}, {}
+    for i = 0, 100 do
+      local at = 10 * i
+      contours[2 * i + 1] = { 0, at, 0, at, 1000, at, 1000, at }
+      contours[2 * i + 2] = { at, 0, at, 0, at, 1000, at, 1000 }
+    end
+    for i = 0, 9999 do
+      colours[i + 1] = { 10 * (i % 100) + 5, 10 * (i // 100) + 5, i % 2 == 0 and "red" or "blue" }
+    end
+    local art = ink.areas { celspan.stroke { width = 2, contours = contours }, colours = colours,
+      scale = 2 }
+    assert.equal(10000, #art)
+    assert.truthy(art[5050]:contains(10 * 49 + 5, 505))
+  end)
+end)
