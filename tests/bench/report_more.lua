@@ -128,6 +128,11 @@ function report.files(page)
 Time on the clock, with the rendering (`./run bench png span cut film_png demo start`). OpenImageIO
 gets celspan's pixels, and only its writing is timed. ffmpeg lays PNG files of the cels over each
 other.
+
+The first picture of a run takes longer: with OpenImageIO of Debian 12, a PNG file of 1920 x 1080
+takes 0.26 s of processor time, and 0.1 s in ffmpeg. OpenImageIO's 280 libraries are loaded once a
+run, for 0.12 s or 495 million instructions. They are opened one by one, each after those that it
+needs: loaded at once they take 0.24 s or 1,075 million, because each looks up its names in all.
 ]], names = page.names({ "job" }, columns) }
 end
 

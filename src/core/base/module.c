@@ -19,6 +19,7 @@
  * lack memory. It must be a large block: when a smaller one is freed, glibc keeps blocks of its
  * size for later. */
 #define ROOM ((size_t)32 << 20)
+#define OPENED (RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE)
 
 /* Where a module may lie, relative to the folder of the object that contains this function: an
  * installed library or Lua module, a Lua module in the build tree, a test program; and
@@ -145,11 +146,39 @@ static celspan_status get_table(celspan_context *context, const cs_module_desc *
   return CELSPAN_OK;
 }
 
+/* Opens the libraries under a module one by one, in the order of the list beside it, if there is
+ * one. A library that is opened with another one looks up its names in all libraries under that
+ * one: among the 280 of OpenImageIO this takes most of the time of loading. A library that cannot
+ * be opened, or needs names that its own libraries lack, is left to the module. Returns false for
+ * lack of memory. */
+static bool open_libraries(const char *path) {
+  char name[PATH_SIZE];
+  int size = snprintf(name, PATH_SIZE, "%s.list", path);
+  FILE *list = size < PATH_SIZE ? fopen(name, "re") : NULL;
+  bool has_memory = true;
+  while (list && has_memory && fgets(name, PATH_SIZE, list)) {
+    name[strcspn(name, "\n")] = 0;
+    errno = 0;
+    has_memory = dlopen(name, OPENED) || errno != ENOMEM;
+  }
+  if (list)
+    fclose(list);
+  return has_memory;
+}
+
+/* Volatile, because compilers recognize memory that is allocated and freed at once, and leave out
+ * both calls. */
+static bool has_room(void) {
+  void *volatile room = malloc(ROOM);
+  free(room);
+  return room;
+}
+
 /* If the loader has no memory for a name, it says that the file does not exist: it is called
  * twice. */
 static void *open_object(const char *path) {
-  void *handle = dlopen(path, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
-  return handle ? handle : dlopen(path, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
+  void *handle = dlopen(path, OPENED);
+  return handle ? handle : dlopen(path, OPENED);
 }
 
 static celspan_status load(celspan_context *context, const cs_module_desc *desc, uint32_t version,
@@ -157,7 +186,11 @@ static celspan_status load(celspan_context *context, const cs_module_desc *desc,
   module_search search = {.error = 0};
   if (!find(desc, &search) && !find_again(desc, &search))
     return fail_search(context, desc, failure, &search);
+  if (!open_libraries(search.path))
+    return cs_fail_memory(context);
   void *handle = open_object(search.path);
+  if (!handle && !has_room())
+    return cs_fail_memory(context);
   if (!handle)
     return cs_fail(
         context, failure,
@@ -179,14 +212,6 @@ static celspan_status load_either(celspan_context *context, const cs_module_desc
     return status;
   status = load(context, desc->other, version, failure, table);
   return status == CELSPAN_OK ? status : load(context, desc, version, failure, table);
-}
-
-/* Volatile, because compilers recognize memory that is allocated and freed at once, and leave out
- * both calls. */
-static bool has_room(void) {
-  void *volatile room = malloc(ROOM);
-  free(room);
-  return room;
 }
 
 /* A failed allocation can be seen in errno, even if the loader gives another reason. */

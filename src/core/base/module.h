@@ -4,6 +4,9 @@
  * that a build tree and a moved installation work), then in the folder chosen for installation when
  * it was built. Once loaded it stays in the process: libraries under it keep threads and statics
  * that do not survive unloading.
+ *
+ * MODULE.so.list names libraries, one in each line, that are opened before MODULE.so to load it in
+ * less time. It changes nothing else: the list and any library of it may be missing.
  */
 #pragma once
 

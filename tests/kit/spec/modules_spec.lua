@@ -82,3 +82,37 @@ describe("a picture module of another version", function()
       "OpenImageIO", ADVICE:format("another", "PICTURE") }, "HOSTILE_IS_OLD=1")
   end)
 end)
+
+describe("the list of libraries beside a module", function()
+  local built = workbench.build .. "/src/kit/plugins/oiio/celspan-picture.so"
+
+  --- Reads a picture with the module, which is given this list.
+  local function read(list, before, mode)
+    bench:shell(("ln -sf '%s' '%s/own.so'"):format(built, bench.folder))
+    bench:write("own.so.list", list)
+    local command = ("%s CELSPAN_PICTURE_MODULE='%s/own.so' '%s' info %s %s"):format(before,
+      bench.folder, workbench.absolute, opened.PICTURE, mode)
+    local code, out, err = bench:shell(command)
+    assert.equal(0, code, err)
+    return out, err
+  end
+
+  it("is opened before it, and may name what is missing", function()
+    if not present.program(built) then return pending "celspan-picture.so was not built" end
+    local list = "libcelspan-none.so.7\n\n" .. ("x"):rep(9000) .. "\nlibc.so.6"
+    assert.equal(read("", "", ""), (read(list, "", "")))
+    local _, trace = read(list, "LD_DEBUG=files", "--trust")
+    local first = trace:find("file=libcelspan-none.so.7 [0];  dynamically loaded", 1, true)
+    assert.is_truthy(first and trace:find("file=libOpenImageIO.", first, true), "not opened first")
+    assert.is_falsy(trace:sub(1, first):find("file=libOpenImageIO.", 1, true))
+  end)
+
+  it("has each library of OpenImageIO after those that it needs", function()
+    local file = io.open(built .. ".list")
+    local list = file and file:read "a" or ""
+    if file then file:close() end
+    if list == "" then return pending "OpenImageIO lies in its own folder, or ldd is missing" end
+    local image = list:find("libOpenImageIO.so", 1, true)
+    assert.is_truthy(image and list:find("libOpenImageIO_Util.so", 1, true) < image, list)
+  end)
+end)
