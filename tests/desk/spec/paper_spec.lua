@@ -122,7 +122,7 @@ return film { size = { 160, 90 }, frames = 30, marks = { wave = 5 },
     write_sheet("a.txt", "fps 24\nframes 2\nlayers A", { "1 1" })
     refused(2, "--paper: 'a5' is not a4 or a3", "sheet a.txt -o a.pdf --paper a5")
     refused(2, "go with a sheet on paper: -o cut.pdf", "sheet a.txt -o a.csv --paper a4")
-    refused(2, "must end in .xdts, .csv, .txt or .pdf", "sheet a.txt -o a.doc")
+    refused(2, "must end in .xdts, .csv, .txt, .otio, .edl or .pdf", "sheet a.txt -o a.doc")
     refused(5, "a.txt", "sheet a.txt -o a.txt/a.pdf")
   end)
 

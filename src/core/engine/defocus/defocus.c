@@ -131,7 +131,7 @@ celspan_status cs_defocus_create_own(celspan_context *context, const cs_blur *bl
   init_grid(&own->grid, size[0], size[1], BAND_ROWS_OWN);
   own->blur = *blur;
   own->is_own = true;
-  own->is_fine = true;
+  own->is_fine = samples > CS_DEFOCUS_SAMPLES;
   celspan_status status = init_way(context, own, varies, samples);
   if (status == CELSPAN_OK)
     *out = own;

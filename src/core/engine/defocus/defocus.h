@@ -63,7 +63,7 @@ struct cs_defocus {
   cs_defocus_sums sums;
   cs_defocus_slices slices;
   cs_defocus_neighbours neighbours;
-  bool is_fine;     /* each sample may be the mean over its area: of a cel's own, or of many */
+  bool is_fine;     /* there are enough samples for each to be the mean over its area */
   bool is_own;      /* the grid of a cel's own, whose bands are nodes */
   cs_defocus *own;  /* the cel's own grid, where it has one, and how the nodes are mixed from it; */
   cs_regrid regrid; /* there are no plans beside it */
