@@ -65,6 +65,7 @@ console.log(JSON.stringify({
   fast: sized(() => 0.02), cold: sized(i => i === 0 ? 0.3 : 0.02), enough: sized(() => 0.04),
   late: sized(() => 0.05), slow: sized(() => 0.12), slowest: sized(() => 1),
   vain: sized(() => 0.1, 0.1), shot: sized(i => i < 200 ? 0.12 : 0.02),
+  busy: sized(i => i > 4 && i < 12 ? 0.4 : 0.12), // the computer has other work for a moment
   unsteady: sized(i => i % 2 ? 0.03 : 0.05) }));
 ]=]
 
@@ -96,7 +97,8 @@ describe("playing", function()
     local sizes = {}
     for name, one in pairs(said) do sizes[name] = table.concat(one.list, " ") end
     assert.same({ fast = "1", cold = "1", enough = "1", unsteady = "1", late = "1 1.5",
-                  slow = "1 2", slowest = "1 3", vain = "1 2 1", shot = "1 2 1.5 1" }, sizes)
+                  slow = "1 2", slowest = "1 3", shot = "1 2 1.5 1", busy = "1 2 1 2",
+                  vain = "1 2 1 2 1 2 1 2 1" }, sizes)
   end)
 
   it("leaves a bar for each of half a million frames", function()
