@@ -21,8 +21,7 @@
  *
  * INVARIANT: encoder and decoder make their candidates by the same functions.
  */
-#ifndef PF_BAND_H
-#define PF_BAND_H
+#pragma once
 
 #include "codes.h"
 #include "program.h"
@@ -273,5 +272,3 @@ typedef struct pf_part {
 } pf_part;
 /* The payload is in the encoder's bytes. */
 planefile_status pf_band_encode(const pf_memory *memory, const pf_part *part, pf_encoder *out);
-
-#endif

@@ -9,8 +9,7 @@
  * INVARIANT: a vertex is a function of the piece, the size of the frame and its own number, so
  * that it does not matter which of them are made.
  */
-#ifndef PF_CHORDS_H
-#define PF_CHORDS_H
+#pragma once
 
 #include "layout.h"
 
@@ -62,5 +61,3 @@ static inline int64_t pf_round(double number) {
   int64_t whole = (int64_t)next;
   return whole - ((double)whole > next);
 }
-
-#endif

@@ -11,8 +11,7 @@
  * INVARIANT: a decoder accepts any bytes: after the last one it reads zeros, and says so in the end
  * (pf_decoder_is_whole).
  */
-#ifndef PF_CODER_H
-#define PF_CODER_H
+#pragma once
 
 #include "layout.h"
 
@@ -71,5 +70,3 @@ uint32_t pf_get_number(pf_decoder *decoder, pf_number *model);
 /* Numbers from -(2^31 - 1) to 2^31 - 1; a decoder can return any that 33 bits hold. */
 void pf_put_signed(pf_encoder *encoder, pf_number *model, int64_t number);
 int64_t pf_get_signed(pf_decoder *decoder, pf_number *model);
-
-#endif

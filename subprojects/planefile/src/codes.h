@@ -4,8 +4,7 @@
  *
  * INVARIANT: the code of the light of a code is that code.
  */
-#ifndef PF_CODES_H
-#define PF_CODES_H
+#pragma once
 
 #include "layout.h"
 
@@ -20,5 +19,3 @@ uint32_t pf_codes_find(const pf_codes *codes, int32_t light);
 /* Straight codes and alpha of a colour, and the colour that has them. */
 void pf_codes_of(const pf_codes *codes, const planefile_cell *cell, int32_t out[4]);
 planefile_cell pf_codes_cell(const pf_codes *codes, const int32_t straight[4]);
-
-#endif

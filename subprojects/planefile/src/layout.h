@@ -18,8 +18,7 @@
  *
  * INVARIANT: all numbers are little endian, whatever the machine.
  */
-#ifndef PF_LAYOUT_H
-#define PF_LAYOUT_H
+#pragma once
 
 #include <stdlib.h>
 #include <string.h>
@@ -108,5 +107,3 @@ static inline void pf_free(const pf_memory *memory, void *block, size_t size, si
   if (block)
     memory->resize(memory->user, block, size * (count > 0 ? count : 1), 0);
 }
-
-#endif

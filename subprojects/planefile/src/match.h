@@ -6,8 +6,7 @@
  *
  * INVARIANT: a cell of the base stands for one cell of the plane, and an axis for one axis.
  */
-#ifndef PF_MATCH_H
-#define PF_MATCH_H
+#pragma once
 
 #include "band.h"
 #include "written.h"
@@ -65,5 +64,3 @@ bool pf_match_cells(pf_match *match);
 
 /* What becomes of a cell of the base. */
 pf_fate pf_match_fate(const pf_match *match, uint32_t theirs);
-
-#endif

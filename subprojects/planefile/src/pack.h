@@ -9,8 +9,7 @@
  * find.c finds the chains and their changes, and pack.c codes them. pack.c is one file, because it
  * is one walk along one code, in the order in which unpack.c reads.
  */
-#ifndef PF_PACK_H
-#define PF_PACK_H
+#pragma once
 
 #include "match.h"
 
@@ -74,5 +73,3 @@ static inline const planefile_cell *pf_pack_flat(const pf_packer *p, uint32_t ce
   bool is_flat = !p->plane->programs || p->plane->programs[cell].step_count == 0;
   return is_flat ? &p->plane->cells[cell] : NULL;
 }
-
-#endif

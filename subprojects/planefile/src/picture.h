@@ -15,8 +15,7 @@
  * INVARIANT: a colour is a function of the picture, the axis and the place of the pixel in the
  * frame. Nothing outside the picture's texels is read, whatever the axis.
  */
-#ifndef PF_PICTURE_H
-#define PF_PICTURE_H
+#pragma once
 
 #include "coder.h"
 
@@ -83,5 +82,3 @@ void pf_picture_fill(pf_picture *picture);
 /* The colours at the middles of pixels. */
 void pf_picture_colours(const pf_picture *picture, const planefile_axis *axis,
                         const pf_pixels *pixels, pf_colours *out);
-
-#endif

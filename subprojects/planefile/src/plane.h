@@ -1,6 +1,5 @@
 /* A plane in memory. */
-#ifndef PF_PLANE_H
-#define PF_PLANE_H
+#pragma once
 
 #include "band.h"
 #include "codes.h"
@@ -25,5 +24,3 @@ struct planefile_plane {
 };
 
 void pf_pixels_make(const pf_codes *codes, unsigned char out[PLANEFILE_WHITE + 1]);
-
-#endif

@@ -10,8 +10,7 @@
  * INVARIANT: a colour is a function of the program and the place of the pixel in the frame, whose
  * operations are all defined to the bit.
  */
-#ifndef PF_PROGRAM_H
-#define PF_PROGRAM_H
+#pragma once
 
 #include "picture.h"
 
@@ -81,5 +80,3 @@ enum { PF_ROOM = 2 * (PLANEFILE_DEPTH + 1) };
 /* The colours are in the first one of the room. */
 void pf_program_colours(const pf_program_source *source, planefile_program program,
                         const pf_pixels *pixels, pf_colours room[PF_ROOM]);
-
-#endif

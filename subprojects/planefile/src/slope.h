@@ -10,8 +10,7 @@
  *
  * A slope is in 1/65536; one below 0 leads from right to left: left = -slope x right + something.
  */
-#ifndef PF_SLOPE_H
-#define PF_SLOPE_H
+#pragma once
 
 #include "layout.h"
 
@@ -30,5 +29,3 @@ bool pf_guess(const pf_beside *beside, const planefile_cell *cell, planefile_cel
 /* The slope by which the most bits are saved in changes of one chain; 0: there is none that is
  * worth it. The slopes of the changes are not used. */
 int32_t pf_slope_find(const pf_beside *changes, size_t count);
-
-#endif

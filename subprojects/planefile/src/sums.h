@@ -13,8 +13,7 @@
  * by less than 2^36 together, so they do not depend on any order. What is added is a function of
  * the chord, the row and the column alone: a crop has the pixels of the whole.
  */
-#ifndef PF_SUMS_H
-#define PF_SUMS_H
+#pragma once
 
 #include "chords.h"
 #include "varied.h"
@@ -68,5 +67,3 @@ void pf_sums_draw_left(pf_sums *sums, const pf_step *change, int64_t y, int64_t 
 /* The spans of a row of the crop, which is `made` of those that were made; it is forgotten. Rows
  * are read from the top. Returns how many they are. */
 size_t pf_sums_read(pf_sums *sums, uint32_t row, uint32_t made);
-
-#endif

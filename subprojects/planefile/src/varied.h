@@ -11,8 +11,7 @@
  * INVARIANT: shares are sums of integers, so that they do not depend on any order. Between two
  * columns with entries they do not change.
  */
-#ifndef PF_VARIED_H
-#define PF_VARIED_H
+#pragma once
 
 #include "plane.h"
 
@@ -58,5 +57,3 @@ void pf_varied_begin_row(pf_varied *varied);
 void pf_varied_take(pf_varied *varied, uint32_t row, uint32_t column);
 void pf_varied_paint(pf_varied *varied, const pf_pixels *pixels, const double flat[4],
                      planefile_span *out);
-
-#endif

@@ -1,6 +1,5 @@
 /* The one writer, which writer.c leads from frame to frame, and whose records records.c writes. */
-#ifndef PF_WRITER_H
-#define PF_WRITER_H
+#pragma once
 
 #include "band.h"
 #include "written.h"
@@ -71,5 +70,3 @@ planefile_status pf_writer_put_index(planefile_writer *w);
 planefile_status pf_writer_put_frames(planefile_writer *w);
 /* last: the offset of the last record. */
 planefile_status pf_writer_put_trailer(planefile_writer *w, uint64_t last);
-
-#endif

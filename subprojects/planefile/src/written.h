@@ -3,8 +3,7 @@
  * INVARIANT: payloads with one print are taken to be the same. A print has 128 bits and the size:
  * no two of the records that a disk can hold have one by chance.
  */
-#ifndef PF_WRITTEN_H
-#define PF_WRITTEN_H
+#pragma once
 
 #include "layout.h"
 
@@ -23,5 +22,3 @@ bool pf_written_has(const pf_written *written, pf_print print);
 /* The offset of the record with a print; 0: it is new, and the caller sets it. Valid until the next
  * call. NULL: no memory. */
 uint64_t *pf_written_find(pf_written *written, pf_print print);
-
-#endif

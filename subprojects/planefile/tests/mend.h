@@ -1,8 +1,7 @@
 /* Corrects the checksums of a file whose bytes were changed, so that the checks behind them are
  * tested.
  */
-#ifndef PLANEFILE_TESTS_MEND_H
-#define PLANEFILE_TESTS_MEND_H
+#pragma once
 
 #include "../src/layout.h"
 #include "support.h"
@@ -83,5 +82,3 @@ static inline void mend_sums(memory_file *file) {
   else
     mend_index(file, last, false);
 }
-
-#endif

@@ -1,6 +1,5 @@
 /* Numbered random planes, as files in memory. */
-#ifndef PLANEFILE_TESTS_SUPPORT_H
-#define PLANEFILE_TESTS_SUPPORT_H
+#pragma once
 
 #include "../../spanfile/tests/common.h"
 #include "planefile.h"
@@ -495,5 +494,3 @@ static inline bool draws_same(const planefile_plane *one, const planefile_plane 
   free(b);
   return is_same;
 }
-
-#endif

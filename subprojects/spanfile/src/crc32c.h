@@ -2,8 +2,7 @@
  *
  * INVARIANT: the sum is the same whether the processor's instruction or the tables compute it.
  */
-#ifndef SF_CRC32C_H
-#define SF_CRC32C_H
+#pragma once
 
 #include "layout.h"
 
@@ -19,5 +18,3 @@ static inline uint32_t sf_crc32c_record(uint32_t row, const void *bytes, size_t 
   sf_store_32(number, row);
   return sf_crc32c(sf_crc32c(0, number, sizeof number), bytes, size);
 }
-
-#endif

@@ -11,8 +11,7 @@
  *
  * INVARIANT: the fitted row has the same pixels as the row.
  */
-#ifndef SF_FIT_H
-#define SF_FIT_H
+#pragma once
 
 #include "store.h"
 
@@ -28,5 +27,3 @@ bool sf_fit_is_alike(const sf_row *row, const sf_row *above);
 /* Makes *out, a row of the same pixels as `row`. */
 sf_fitted sf_fit(const sf_memory *memory, spanfile_format format, const sf_row *row,
                  const sf_row *above, sf_row *out);
-
-#endif

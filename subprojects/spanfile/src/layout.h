@@ -10,8 +10,7 @@
  *
  * INVARIANT: all numbers are little endian, whatever the machine.
  */
-#ifndef SF_LAYOUT_H
-#define SF_LAYOUT_H
+#pragma once
 
 #include <string.h>
 
@@ -115,5 +114,3 @@ static inline uint64_t sf_zigzag(int64_t number) {
 static inline int64_t sf_unzigzag(uint64_t code) {
   return code & 1 ? -(int64_t)(code >> 1) - 1 : (int64_t)(code >> 1);
 }
-
-#endif

@@ -6,8 +6,7 @@
  * INVARIANT: memory does not grow with the height. A node of the index is written when it is full.
  * Functions that return false could not write.
  */
-#ifndef SF_OUTPUT_H
-#define SF_OUTPUT_H
+#pragma once
 
 #include "store.h"
 
@@ -30,5 +29,3 @@ bool sf_output_put(sf_output *out, const void *bytes, size_t size);
 bool sf_output_key(sf_output *out, uint32_t row);
 /* Index and trailer, and all bytes to `write`. */
 bool sf_output_end(sf_output *out, const spanfile_info *info);
-
-#endif

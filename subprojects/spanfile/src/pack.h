@@ -2,8 +2,7 @@
  *
  * INVARIANT: a gradient is used only where it decodes to exactly the given pixels.
  */
-#ifndef SF_PACK_H
-#define SF_PACK_H
+#pragma once
 
 #include "store.h"
 
@@ -17,5 +16,3 @@ bool sf_pack_raw(const sf_memory *memory, sf_row *row, size_t pixel_size, const 
                  uint32_t count);
 bool sf_pack_pixels(const sf_memory *memory, sf_row *row, spanfile_format format,
                     const void *pixels, uint32_t count);
-
-#endif

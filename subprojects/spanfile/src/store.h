@@ -5,8 +5,7 @@
  *
  * INVARIANT: `spans` and `values` are as spanfile_row describes, up to the end of the last span.
  */
-#ifndef SF_STORE_H
-#define SF_STORE_H
+#pragma once
 
 #include "layout.h"
 
@@ -74,5 +73,3 @@ static inline bool sf_row_add(const sf_memory *memory, sf_row *row, uint32_t cou
 }
 void sf_row_clear(sf_row *row);
 void sf_row_free(const sf_memory *memory, sf_row *row);
-
-#endif

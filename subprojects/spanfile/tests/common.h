@@ -1,7 +1,6 @@
 /* What the tests of span files and plane files share: checks, files in memory, memory that is
  * measured, and random numbers. */
-#ifndef SPANFILE_TESTS_COMMON_H
-#define SPANFILE_TESTS_COMMON_H
+#pragma once
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -125,5 +124,3 @@ static inline uint32_t random_next(random_state *random) { /* splitmix64 */
 static inline uint32_t random_below(random_state *random, uint32_t limit) {
   return (uint32_t)((uint64_t)random_next(random) * limit >> 32);
 }
-
-#endif

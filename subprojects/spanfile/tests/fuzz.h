@@ -1,6 +1,5 @@
 /* What the fuzz targets share, and with REPLAY_MAIN a main that runs the files of a folder. */
-#ifndef SPANFILE_TESTS_FUZZ_H
-#define SPANFILE_TESTS_FUZZ_H
+#pragma once
 
 #include "common.h"
 
@@ -40,7 +39,5 @@ int main(int count, char **arguments) {
   closedir(folder);
   return check_done();
 }
-
-#endif
 
 #endif

@@ -1,8 +1,7 @@
 /* Corrects the checksums of a file whose bytes were changed, so that the checks behind them are
  * tested.
  */
-#ifndef SPANFILE_TESTS_MEND_H
-#define SPANFILE_TESTS_MEND_H
+#pragma once
 
 #include "../src/crc32c.h"
 #include "support.h"
@@ -39,5 +38,3 @@ static inline void mend_ends(memory_file *file) {
   memcpy(trailer + 24, header + 30, 4);
   memcpy(trailer + SF_TRAILER_BYTES, sf_footer, SF_FOOTER_BYTES);
 }
-
-#endif

@@ -1,6 +1,5 @@
 /* Numbered random pictures, as files in memory. */
-#ifndef SPANFILE_TESTS_SUPPORT_H
-#define SPANFILE_TESTS_SUPPORT_H
+#pragma once
 
 #include "common.h"
 #include "spanfile.h"
@@ -225,5 +224,3 @@ static inline bool has_pixels(spanfile_reader *reader, const picture *p, uint32_
   free(pixels);
   return is_same;
 }
-
-#endif
