@@ -198,6 +198,21 @@ celspan_status cs_rostrum_change(celspan_context *context, const celspan_rostrum
   return CELSPAN_OK;
 }
 
+celspan_status cs_rostrum_alone(celspan_context *context, celspan_object *object,
+                                celspan_rostrum **out) {
+  celspan_cel *cel;
+  celspan_cel_desc one = CELSPAN_CEL_DESC;
+  celspan_rostrum_desc desc = CELSPAN_ROSTRUM_DESC;
+  one.objects = &object;
+  one.object_count = 1;
+  CS_TRY(celspan_cel_create(context, &one, &cel));
+  desc.cels = &cel;
+  desc.cel_count = 1;
+  celspan_status status = celspan_rostrum_create(context, &desc, out);
+  celspan_cel_unref(cel);
+  return status;
+}
+
 celspan_status cs_rostrum_by_camera(celspan_context *context, const celspan_rostrum *from,
                                     const celspan_rostrum *by, celspan_rostrum **out) {
   celspan_rostrum *changed;

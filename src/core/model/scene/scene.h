@@ -338,6 +338,9 @@ CELSPAN_CHECKED celspan_status cs_cel_of_pixels(celspan_context *context,
 CELSPAN_CHECKED celspan_status cs_cel_with(celspan_context *context, const celspan_cel *cel,
                                            celspan_object *const *objects, size_t count,
                                            celspan_cel **out);
+/* *out: new; a rostrum with one cel, of this object, with all defaults. */
+CELSPAN_CHECKED celspan_status cs_rostrum_alone(celspan_context *context, celspan_object *object,
+                                                celspan_rostrum **out);
 /* *out: new; like `from`, name and line included, with these cels, which are kept.
  * cs_rostrum_change replaces the back light, too. Neither checks its arguments. For tools that show
  * a part of a frame, or show it before another ground. Errors: NO_MEMORY. */

@@ -19,40 +19,26 @@ typedef struct search {
   const char *part; /* the shot of a cut in which the search is; "": none. NULL: it is no cut */
 } search;
 
-/* *paint: new; the colour of a cel at the point in white light, straight; 0 where nothing is. */
-static celspan_status probe_cel(const search *s, celspan_cel *cel, cs_light *paint) {
-  celspan_rostrum *rostrum;
-  double rgba[4];
-  celspan_rostrum_desc desc = CELSPAN_ROSTRUM_DESC;
-  desc.cels = &cel;
-  desc.cel_count = 1;
-  CS_TRY(celspan_rostrum_create(s->context, &desc, &rostrum));
-  celspan_exposure exposure = {rostrum, 1};
-  const cs_film_frame alone = {.exposures = &exposure, .count = 1};
+/* *paint: new; the colour of an object at the point in white light, straight; 0 where nothing
+ * is. */
+static celspan_status probe_object(const search *s, celspan_object *object,
+                                   const celspan_matrix *matrix, cs_light *paint) {
+  celspan_object *placed;
+  celspan_exposure exposure = {NULL, 1};
   celspan_frame_desc frame = CELSPAN_FRAME_DESC;
+  double rgba[4];
+  CS_TRY(celspan_object_transform(s->context, object, matrix, &placed));
+  celspan_status status = cs_rostrum_alone(s->context, placed, &exposure.rostrum);
+  celspan_object_unref(placed);
+  CS_TRY(status);
+  const cs_film_frame alone = {.exposures = &exposure, .count = 1};
   cs_film_expose(&s->script->film, &alone, &frame);
-  celspan_status status = celspan_probe(s->context, &frame, s->point, rgba);
+  status = celspan_probe(s->context, &frame, s->point, rgba);
   *paint = (cs_light){0};
   if (status == CELSPAN_OK && rgba[3] > 0)
     paint->flat = (celspan_light){(float)(rgba[0] / rgba[3]), (float)(rgba[1] / rgba[3]),
                                   (float)(rgba[2] / rgba[3]), (float)rgba[3]};
-  celspan_rostrum_unref(rostrum);
-  return status;
-}
-
-static celspan_status probe_object(const search *s, celspan_object *object,
-                                   const celspan_matrix *matrix, cs_light *paint) {
-  celspan_object *placed;
-  celspan_cel *cel = NULL;
-  CS_TRY(celspan_object_transform(s->context, object, matrix, &placed));
-  celspan_cel_desc desc = CELSPAN_CEL_DESC;
-  desc.objects = &placed;
-  desc.object_count = 1;
-  celspan_status status = celspan_cel_create(s->context, &desc, &cel);
-  if (status == CELSPAN_OK)
-    status = probe_cel(s, cel, paint);
-  celspan_cel_unref(cel);
-  celspan_object_unref(placed);
+  celspan_rostrum_unref(exposure.rostrum);
   return status;
 }
 

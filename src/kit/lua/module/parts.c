@@ -84,22 +84,6 @@ static void set_place(list *to, cs_mark mark, double fade, bool is_there, const 
   cs_put_numbers(L, "box", sides, 4);
 }
 
-/* A rostrum with only this object. */
-static celspan_status create_alone(celspan_context *context, celspan_object *object,
-                                   celspan_rostrum **out) {
-  celspan_cel *cel;
-  celspan_cel_desc desc = CELSPAN_CEL_DESC;
-  desc.objects = &object;
-  desc.object_count = 1;
-  CS_TRY(celspan_cel_create(context, &desc, &cel));
-  celspan_rostrum_desc rostrum = CELSPAN_ROSTRUM_DESC;
-  rostrum.cels = &cel;
-  rostrum.cel_count = 1;
-  celspan_status status = celspan_rostrum_create(context, &rostrum, out);
-  celspan_cel_unref(cel);
-  return status;
-}
-
 /* Pushes a holder for a rostrum, which is NULL at first. */
 static celspan_rostrum **push_rostrum(lua_State *L) {
   cs_userdata *value = cs_userdata_push(L, &cs_noun_rostrum);
@@ -114,7 +98,7 @@ static celspan_status set_text(list *to, celspan_object *placed, uint32_t words)
   const celspan_rostrum *all = to->rostrum;
   const size_t after = to->place + 1;
   cs_put_integer(L, "words", words);
-  CS_TRY(create_alone(to->context, placed, push_rostrum(L)));
+  CS_TRY(cs_rostrum_alone(to->context, placed, push_rostrum(L)));
   lua_setfield(L, -2, "alone");
   if (after == all->cel_count)
     return CELSPAN_OK;
