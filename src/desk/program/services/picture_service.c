@@ -200,10 +200,7 @@ static int read_plane(lua_State *L) {
 
 /* ---------------------------------------------------------------- frames as pictures */
 
-static int finish_frame(lua_State *L) {
-  cs_film_frame_finish(lua_touserdata(L, 1));
-  return 0;
-}
+CS_HOLDER_FINISH(finish_frame, cs_film_frame_finish)
 
 /* Describes the first frame of a film, or of a rostrum that has a size, which is argument 1, under
  * the request. Pushes what the frame is made of. */
@@ -274,10 +271,7 @@ static int write_pages(lua_State *L) {
 
 /* ---------------------------------------------------------------- a picture in memory */
 
-static int release_png(lua_State *L) {
-  cs_stage_release(lua_touserdata(L, 1));
-  return 0;
-}
+CS_HOLDER_FINISH(release_png, cs_stage_release)
 
 /* png(film) -> the first frame of a film as the bytes of a PNG of 8 bits, its width, its height */
 static int make_png(lua_State *L) {

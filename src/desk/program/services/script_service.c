@@ -110,10 +110,7 @@ static int chosen(lua_State *L) {
   return 2;
 }
 
-static int release_numbers(lua_State *L) {
-  cs_sequence_finish(lua_touserdata(L, 1));
-  return 0;
-}
+CS_HOLDER_FINISH(release_numbers, cs_sequence_finish)
 
 /* script:numbers(output or nil) -> the numbers of --frames, or of all frames; each must have its
  * own name in the output */

@@ -20,10 +20,7 @@ static int fail(lua_State *L, const char *message) {
   return 2;
 }
 
-static int close_stream(lua_State *L) {
-  cs_sound_stream_close(lua_touserdata(L, 1));
-  return 0;
-}
+CS_HOLDER_FINISH(close_stream, cs_sound_stream_close)
 
 /* Pushes the holder of the mix of some frames. Argument 2: the first frame; 3: their number. NULL:
  * it failed, and nil and the message are pushed. */

@@ -96,17 +96,22 @@ static bool flag_of(const cs_form *form, const cs_field *field) {
   return lua_toboolean(form->L, -1);
 }
 
+const char *cs_fields_push_words(lua_State *L, const char *const *words) {
+  lua_pushliteral(L, "");
+  for (size_t i = 0; words[i]; i++) {
+    lua_pushfstring(L, "%s\"%s\"", i == 0 ? "" : words[i + 1] ? ", " : " or ", words[i]);
+    lua_concat(L, 2);
+  }
+  return lua_tostring(L, -1);
+}
+
 static _Noreturn void fail_word(const cs_form *form, const char *name, const char *const *words) {
   const char *word = lua_type(form->L, -1) == LUA_TSTRING ? lua_tostring(form->L, -1) : NULL;
   const char *given = cs_userdata_shown(form->L, -1), *hint = "";
   size_t count = 0;
-  lua_pushliteral(form->L, "");
-  for (; words[count]; count++) {
-    const char *between = count == 0 ? "" : words[count + 1] ? ", " : " or ";
-    lua_pushfstring(form->L, "%s\"%s\"", between, words[count]);
-    lua_concat(form->L, 2);
-  }
-  const char *list = lua_tostring(form->L, -1);
+  const char *list = cs_fields_push_words(form->L, words);
+  while (words[count])
+    count++;
   const char *nearest = word ? cs_suggest_name(word, words, count) : NULL;
   if (nearest)
     hint = lua_pushfstring(form->L, "; did you mean \"%s\"?", nearest);

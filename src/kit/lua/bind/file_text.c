@@ -18,10 +18,7 @@ static void close_file(int *file) {
 }
 
 /* Closes a file that an error has left open. */
-static int release_file(lua_State *L) {
-  close_file(lua_touserdata(L, 1));
-  return 0;
-}
+CS_HOLDER_FINISH(release_file, close_file)
 
 static int fail_text(lua_State *L, const char *path, const char *reason) {
   luaL_pushfail(L);

@@ -172,6 +172,11 @@ const char *cs_userdata_type(lua_State *L, int index) {
   return lua_pushstring(L, luaL_typename(L, index));
 }
 
+const char *cs_userdata_number(lua_State *L, int index) {
+  return lua_type(L, index) == LUA_TNUMBER ? luaL_tolstring(L, index, NULL)
+                                           : cs_userdata_type(L, index);
+}
+
 const char *cs_userdata_shown(lua_State *L, int index) {
   char shown[MOST_SHOWN + 1];
   size_t size, kept;
@@ -428,6 +433,13 @@ static void keep_metatable(lua_State *L, const char *kind) {
   lua_pushstring(L, kind); /* the result of getmetatable: no script can call __gc */
   lua_setfield(L, -2, "__metatable");
   lua_setfield(L, LUA_REGISTRYINDEX, kind);
+}
+
+void cs_userdata_open_metatable(lua_State *L, const char *name, const luaL_Reg *functions) {
+  luaL_newmetatable(L, name);
+  luaL_setfuncs(L, functions, 0);
+  cs_put_text(L, "__metatable", name);
+  lua_pop(L, 1);
 }
 
 void cs_userdata_register(lua_State *L, const cs_kind *kind) {

@@ -84,8 +84,14 @@ cs_userdata *cs_userdata_self(lua_State *L, const cs_kind *kind, const char *met
 
 /* Pushes a word for the value at index, for messages: "a circle", "number". */
 const char *cs_userdata_type(lua_State *L, int index);
+/* The same, but of a number pushes its value. */
+const char *cs_userdata_number(lua_State *L, int index);
 /* The same, but of a string pushes its beginning, in quotes and without control characters. */
 const char *cs_userdata_shown(lua_State *L, int index);
+
+/* Gives the metatable of this name these functions, also if it exists already: without memory it
+ * may be incomplete. Scripts can neither read nor change it. */
+void cs_userdata_open_metatable(lua_State *L, const char *name, const luaL_Reg *functions);
 
 /* ---------------------------------------------------------------- holders */
 
@@ -109,5 +115,11 @@ void *cs_userdata_push_holder(lua_State *L, const char *kind, size_t size, lua_C
     type **held = lua_touserdata(L, 1);                                                            \
     drop(*held);                                                                                   \
     *held = NULL;                                                                                  \
+    return 0;                                                                                      \
+  }
+/* Defines `release` for holders of what `finish` releases, as often as it is called. */
+#define CS_HOLDER_FINISH(release, finish)                                                          \
+  static int release(lua_State *L) {                                                               \
+    finish(lua_touserdata(L, 1));                                                                  \
     return 0;                                                                                      \
   }

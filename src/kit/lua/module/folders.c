@@ -85,10 +85,7 @@ static void push_numbers(lua_State *L, const cs_sequence *sequence) {
   }
 }
 
-static int release(lua_State *L) {
-  cs_sequence_finish(lua_touserdata(L, 1));
-  return 0;
-}
+CS_HOLDER_FINISH(release, cs_sequence_finish)
 
 int cs_folders_frames(lua_State *L) {
   const char *pattern = luaL_checkstring(L, 1), *list = luaL_optstring(L, 2, NULL);

@@ -28,8 +28,7 @@ static int32_t coordinate(lua_State *L, int index, const char *name, int32_t siz
   lua_Integer at = lua_type(L, index) == LUA_TNUMBER ? lua_tointegerx(L, index, &is_whole) : -1;
   if (!is_whole || at < 0 || at >= size)
     cs_caller_error(L, "get: %s must be a whole number from 0 to %d, got %s", name, size - 1,
-                    lua_type(L, index) == LUA_TNUMBER ? luaL_tolstring(L, index, NULL)
-                                                      : cs_userdata_type(L, index));
+                    cs_userdata_number(L, index));
   return (int32_t)at;
 }
 
@@ -196,9 +195,5 @@ int cs_pixels_make(lua_State *L) {
 void cs_pixels_open(lua_State *L) {
   static const luaL_Reg metamethods[] = {
       {"__index", index_image}, {"__tostring", describe}, {NULL, NULL}};
-  luaL_newmetatable(L, IMAGE);
-  luaL_setfuncs(L, metamethods, 0);
-  lua_pushliteral(L, IMAGE);
-  lua_setfield(L, -2, "__metatable");
-  lua_pop(L, 1);
+  cs_userdata_open_metatable(L, IMAGE, metamethods);
 }

@@ -200,9 +200,5 @@ static int describe(lua_State *L) {
 void cs_plane_open(lua_State *L) {
   static const luaL_Reg metamethods[] = {
       {"__index", index_plane}, {"__tostring", describe}, {"__gc", finish_plane}, {NULL, NULL}};
-  luaL_newmetatable(L, CS_NATIVE_PLANE);
-  luaL_setfuncs(L, metamethods, 0);
-  lua_pushliteral(L, CS_NATIVE_PLANE);
-  lua_setfield(L, -2, "__metatable");
-  lua_pop(L, 1);
+  cs_userdata_open_metatable(L, CS_NATIVE_PLANE, metamethods);
 }

@@ -7,14 +7,7 @@
 
 #define FRAME "celspan.subject"
 
-/* ---------------------------------------------------------------- the built frame */
-
-static int finish_frame(lua_State *L) {
-  cs_film_frame_finish(lua_touserdata(L, 1));
-  return 0;
-}
-
-/* ---------------------------------------------------------------- films */
+CS_HOLDER_FINISH(finish_frame, cs_film_frame_finish)
 
 static int64_t number_of(const cs_options *options, const cs_film_info *film) {
   if (!options->has_frame)

@@ -354,8 +354,7 @@ static int on(lua_State *L) {
   lua_Integer step = 0;
   if (!is_whole(L, 2, &step) || step < 1)
     return cs_caller_error(L, "on: takes a whole number of frames, 1 or more, f:on(2), got %s",
-                           lua_type(L, 2) == LUA_TNUMBER ? luaL_tolstring(L, 2, NULL)
-                                                         : cs_userdata_type(L, 2));
+                           cs_userdata_number(L, 2));
   lua_pushinteger(L, held_index(L, step));
   return 1;
 }

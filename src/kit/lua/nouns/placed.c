@@ -9,6 +9,7 @@
 #include "lua/bind/anchor.h"
 #include "lua/bind/caller.h"
 #include "lua/bind/construct.h"
+#include "lua/bind/fields.h"
 #include "lua/bind/form.h"
 #include "lua/bind/host.h"
 #include "lua/bind/list.h"
@@ -146,22 +147,6 @@ static int quad(lua_State *L) {
   return push_transformed(L, "quad", value, matrix);
 }
 
-/* Pushes the words of all modes. */
-static const char *push_modes(lua_State *L) {
-  luaL_Buffer words;
-  luaL_buffinit(L, &words);
-  for (int i = 0; cs_blend_words[i]; i++) {
-    lua_pushfstring(L, "%s\"%s\"",
-                    i == 0                  ? ""
-                    : cs_blend_words[i + 1] ? ", "
-                                            : " or ",
-                    cs_blend_words[i]);
-    luaL_addvalue(&words);
-  }
-  luaL_pushresult(&words);
-  return lua_tostring(L, -1);
-}
-
 static int fade(lua_State *L) {
   const cs_userdata *value = self(L, "fade");
   double k = cs_form_argument(L, 2, "fade", "k");
@@ -210,8 +195,8 @@ static int refuse_mode(lua_State *L) {
   const char *hint = nearest ? lua_pushfstring(L, "; did you mean \"%s\"?", nearest) : "";
   if (strcmp(word, "dissolve") == 0)
     hint = "; write celspan.dissolve(object), of an object that is faded already";
-  return cs_caller_error(L, "blend: the mode must be one of %s, got %s%s", push_modes(L),
-                         cs_userdata_shown(L, 2), hint);
+  return cs_caller_error(L, "blend: the mode must be one of %s, got %s%s",
+                         cs_fields_push_words(L, cs_blend_words), cs_userdata_shown(L, 2), hint);
 }
 
 static int blend(lua_State *L) {

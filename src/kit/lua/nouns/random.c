@@ -38,8 +38,7 @@ static lua_Integer whole(lua_State *L, int index, const char *name) {
   lua_Integer number = lua_type(L, index) == LUA_TNUMBER ? lua_tointegerx(L, index, &good) : 0;
   if (!good) /* 2.0 is a whole number, too */
     cs_caller_error(L, "random: %s must be a whole number, got %s", name,
-                    lua_type(L, index) == LUA_TNUMBER ? luaL_tolstring(L, index, NULL)
-                                                      : cs_userdata_type(L, index));
+                    cs_userdata_number(L, index));
   return number;
 }
 

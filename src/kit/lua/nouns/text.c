@@ -326,12 +326,10 @@ static int refuse_method(lua_State *L) {
 }
 
 int cs_nouns_as_letter(lua_State *L) {
+  static const luaL_Reg metamethods[] = {{"__index", refuse_method}, {NULL, NULL}};
   lua_settop(L, 1);
-  luaL_newmetatable(L, "celspan.letter");
-  cs_put_text(L, "__metatable", "celspan.letter");
-  lua_pushcfunction(L, refuse_method);
-  lua_setfield(L, -2, "__index");
-  lua_setmetatable(L, 1);
+  cs_userdata_open_metatable(L, "celspan.letter", metamethods);
+  luaL_setmetatable(L, "celspan.letter");
   return 1;
 }
 
