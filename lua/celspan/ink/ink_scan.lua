@@ -20,8 +20,7 @@ local ink = {}
 ---@field width integer Pixels
 ---@field height integer
 ---@field levels number[] The brightness of black and of white that was used
-local Drawing = { __name = "celspan.ink.drawing" }
-Drawing.__index = fields.reads("a drawing", {})
+local Drawing = fields.class("celspan.ink.drawing", "a drawing")
 
 -- ACME: the middles of the slots lie 101.6 mm from that of the round hole. EDGE: millimetres from
 -- the nearer edge of the page at which the holes of all scans are laid.
@@ -47,29 +46,32 @@ local MILLIMETRES = 25.4
 local known = { pegs = "any", match = "boolean", dpi = "number", levels = "any", ink = "table",
   dust = "number", frames = "string" }
 
+local function must(holds, name, rule, value)
+  fields.must(holds, "ink: scan: " .. name, rule, value)
+end
+
 local function check_holes(pegs)
   fields.expect_kind(type(pegs) == "table", pegs,
     'ink: scan: pegs must be "acme", a list of holes or false')
-  fields.must(#pegs >= 2 and #pegs <= MOST_HOLES, "ink: scan: the number of pegs",
-    "2 to " .. MOST_HOLES, #pegs)
+  must(#pegs >= 2 and #pegs <= MOST_HOLES, "the number of pegs", "2 to " .. MOST_HOLES, #pegs)
+  local seen = {}
   for i, hole in ipairs(pegs) do
     local name = ("pegs[%d]"):format(i)
     fields.numbers("ink: scan", name .. "[%d]", hole, 4, "{x, y, w, h} in millimetres")
     for j = 1, 4 do
-      fields.must(math.abs(hole[j]) <= 1000 and (j < 3 or hole[j] >= 1), ("ink: scan: %s[%d]")
-        :format(name, j), j < 3 and "from -1000 to 1000" or "from 1 to 1000", hole[j])
+      must(math.abs(hole[j]) <= 1000 and (j < 3 or hole[j] >= 1), ("%s[%d]"):format(name, j),
+        ("from %d to 1000"):format(j < 3 and -1000 or 1), hole[j])
     end
-    for j = 1, i - 1 do
-      fields.must(hole[1] ~= pegs[j][1] or hole[2] ~= pegs[j][2], "ink: scan: " .. name,
-        "elsewhere than the holes before it", hole[1])
-    end
+    local place = ("%a %a"):format(hole[1] + 0.0, hole[2] + 0.0)
+    must(not seen[place], name, "elsewhere than the holes before it", hole[1])
+    seen[place] = true
   end
   return pegs
 end
 
 --- The names of the inks, the darkest first, and their colours.
 local function inks_of(given)
-  local names, colours, light = {}, {}, {}
+  local names, light = {}, {}
   for name, colour in pairs(given) do
     fields.expect_kind(type(name) == "string", name, "ink: scan: ink must have names")
     local good, paint = pcall(celspan.rgb, colour)
@@ -80,41 +82,36 @@ local function inks_of(given)
     local p = paint.pigment
     light[name], names[#names + 1] = 0.2126 * p[1] + 0.7152 * p[2] + 0.0722 * p[3], name
   end
-  fields.must(#names >= 1 and #names <= MOST_INKS, "ink: scan: the number of inks",
-    "1 to " .. MOST_INKS, #names)
+  must(#names >= 1 and #names <= MOST_INKS, "the number of inks", "1 to " .. MOST_INKS, #names)
   table.sort(names, function(a, b)
-    if light[a] ~= light[b] then return light[a] < light[b] end
-    return a < b
+    return light[a] < light[b] or light[a] == light[b] and a < b
   end)
-  for i, name in ipairs(names) do colours[i] = given[name] end
-  return names, colours
+  return names
 end
 
 local function levels_of(levels)
   if levels == nil or levels == "auto" then return {} end
   fields.numbers("ink: scan", "levels[%d]", levels, 2, '{black, white} or "auto"')
-  fields.must(levels[1] >= 0 and levels[2] <= 1 and levels[1] < levels[2],
-    "ink: scan: levels", "black and white, 0 <= black < white <= 1", levels[1])
+  must(#levels == 2 and levels[1] >= 0 and levels[2] <= 1 and levels[1] < levels[2], "levels",
+    "black and white, 0 <= black < white <= 1", levels[1])
   return levels
 end
 
 --- The options in the form in which `drawing` needs them.
 local function settings_of(given)
   given = fields.check("ink: scan", given or {}, known)
-  local pegs = given.pegs
-  if pegs == nil then pegs = "acme" end
   if given.match and given.pegs then
     native.refuse "ink: scan: match goes without pegs: leave one of them out"
   end
-  fields.must(given.dpi == nil or given.dpi >= 30 and given.dpi <= 4800, "ink: scan: dpi",
-    "from 30 to 4800", given.dpi)
-  local names, colours = { "black" }, { "#000" }
-  if given.ink then names, colours = inks_of(given.ink) end
-  local holes = pegs == "acme" and ACME or pegs and check_holes(pegs)
-  return { holes = not given.match and holes, acme = pegs == "acme", match = given.match,
-    dpi = given.dpi, names = given.ink and names or {}, colours = colours,
-    levels = levels_of(given.levels), dust = fields.whole("ink: scan: dust", given.dust or 8, 0,
-      MOST_DUST) }
+  local acme = given.pegs == "acme" or given.pegs == nil
+  local holes = acme and ACME or given.pegs and check_holes(given.pegs)
+  must(given.dpi == nil or given.dpi >= 30 and given.dpi <= 4800, "dpi", "from 30 to 4800",
+    given.dpi)
+  local names, colours = given.ink and inks_of(given.ink) or {}, {}
+  for i, name in ipairs(names) do colours[i] = given.ink[name] end
+  return { holes = not given.match and holes, acme = acme, match = given.match, dpi = given.dpi,
+    names = names, colours = given.ink and colours or { "#000" }, levels = levels_of(given.levels),
+    dust = fields.whole("ink: scan: dust", given.dust or 8, 0, MOST_DUST) }
 end
 
 -- ---------------------------------------------------------------- where a page lies
@@ -134,7 +131,7 @@ local function fault_of(job, dpi, found, scale, error_of)
       .. "the holes above or below, or give pegs = false"):format(wanted, dpi)
   elseif found < wanted then
     return ("only %d of the %d peg holes were found: free the others of tape, ink and shadows, and "
-      .. "scan the whole sheet"):format(found, wanted)
+      .. "scan the whole sheet on black"):format(found, wanted)
   elseif math.abs(scale - 1) > MOST_SCALE then
     return ("the peg holes lie as in a scan of %.0f dpi, not %g: give the right dpi"):format(
       scale * dpi, dpi)

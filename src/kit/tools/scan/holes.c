@@ -1,7 +1,6 @@
 #include "tools/scan/holes.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "inside/elementary.h"
 #include "inside/number.h"
@@ -16,57 +15,51 @@
 /* The greatest sine of the turn; how far from 1 the scale of a scan with the right `dpi` may be. */
 #define MOST_TURN 0.27
 #define MOST_SCALE 0.03
-enum { BLOTS = 64, SHADES = 256 }; /* BLOTS: half of them dark, half of them bright */
+/* How far from the wanted one the area of a hole may be, and the deviation of the grain around it,
+ * as shares. */
+#define MOST_OFF 0.25
+#define MOST_GRAIN 0.26
+enum { BLOTS = 64 }; /* half of them dark, half of them bright */
 
-/* The blots that may be holes, in spots, and what is wanted. */
+/* The blots that may be holes, and what is wanted. */
 typedef struct search {
   cs_rough *page;
   cs_blot blots[BLOTS];
   size_t count;
   const cs_hole *holes;
   size_t hole_count;
-  double unit; /* spots for a millimetre */
+  double unit; /* pixels for a millimetre */
 } search;
 
-/* A way to lay the holes on the page: x + y i of a hole, times (re + im i), plus (x, y). In spots.
- */
+/* A way to lay the holes on the page: x + y i of a hole, times (re + im i), plus (x, y). In
+ * pixels. */
 typedef struct laying {
   double re, im, x, y;
-  int32_t found;
-  uint8_t of_hole[CS_ROUGH_HOLES]; /* the blot of each hole; BLOTS: none */
+  int32_t found, rank;
+  size_t of_hole[CS_ROUGH_HOLES]; /* the blot of each hole; BLOTS: none */
 } laying;
 
 /* ---------------------------------------------------------------- candidates */
 
-/* The mean of 3 x 3 spots, because a bright hole differs from the paper hardly more than its grain.
- */
-static float mean_at(const cs_rough *page, int32_t x, int32_t y) {
+/* The mean of the spots around one, because a bright hole differs from the paper hardly more than
+ * its grain. Its rim is a shadow. */
+static float mean_at(const cs_rough *page, int32_t x, int32_t y, int32_t radius) {
   float sum = 0;
-  if (x < 1 || y < 1 || x + 1 >= page->width || y + 1 >= page->height)
-    return page->spots[(size_t)y * (size_t)page->width + (size_t)x];
-  for (int32_t v = y - 1; v <= y + 1; v++) {
-    const float *spot = page->spots + (size_t)v * (size_t)page->width + (size_t)x;
-    sum += spot[-1] + spot[0] + spot[1];
-  }
-  return sum / 9;
+  if (x < radius || y < radius || x + radius >= page->width || y + radius >= page->height)
+    return 1;
+  for (int32_t v = y - radius; v <= y + radius; v++)
+    for (int32_t u = x - radius; u <= x + radius; u++)
+      sum += page->spots[(size_t)v * (size_t)page->width + (size_t)u];
+  return sum / (float)((2 * radius + 1) * (2 * radius + 1));
 }
 
-/* A bright hole is as white as the light, which a shadow dims as much as the paper. */
-static bool may_be_hole(const cs_rough *page, float spot, float paper, bool is_bright) {
-  float white = 0.4f * (1 / page->paper[1] - 1);
+static void mark(const cs_rough *page, bool is_bright, uint8_t *plane) {
+  float white = 0.3f * (1 / page->code[1] - 1);
   float least = white > BRIGHTER ? white : BRIGHTER;
-  return is_bright ? spot > paper * (1 + least) : spot < paper * (1 - DARKER);
-}
-
-static void mark_row(const cs_rough *page, int32_t y, bool is_bright, float *field, uint8_t *row) {
-  int32_t first, end, middle = y * page->side + page->side / 2;
-  cs_rough_row(page, middle, 2 * page->side, &first, &end);
-  cs_rough_field(page, middle, field);
-  for (int32_t x = 0; x < page->width; x++) {
-    float paper = field[x * page->side + page->side / 2];
-    bool is_inside = x * page->side >= first && (x + 1) * page->side <= end;
-    row[x] = is_inside && may_be_hole(page, mean_at(page, x, y), paper, is_bright);
-  }
+  for (int32_t y = 0; y < page->height; y++)
+    for (int32_t x = 0; x < page->width; x++)
+      *plane++ =
+          is_bright ? mean_at(page, x, y, 2) > 1 + least : mean_at(page, x, y, 1) < 1 - DARKER;
 }
 
 static inline bool is_larger(const cs_blot *a, const cs_blot *b) {
@@ -76,257 +69,270 @@ CS_SORT_DEFINE(sort_blots, cs_blot, is_larger)
 
 /* Adds the largest of the compact blots. */
 static void choose(search *s, cs_blots *blots) {
-  size_t kept = 0;
-  for (size_t i = 0; i < blots->count; i++) {
+  size_t most = s->count + BLOTS / 2;
+  sort_blots(blots->list, blots->count);
+  for (size_t i = 0; i < blots->count && s->count < most; i++) {
     const cs_blot *blot = &blots->list[i];
     int32_t wide = blot->x1 - blot->x0, high = blot->y1 - blot->y0;
     bool is_compact = 2 * blot->area > (uint32_t)wide * (uint32_t)high;
     if (blot->area >= 8 && is_compact && wide < s->page->width / 4 && high < s->page->height / 4)
-      blots->list[kept++] = *blot;
+      s->blots[s->count++] = *blot;
   }
-  sort_blots(blots->list, kept);
-  kept = kept < BLOTS / 2 ? kept : BLOTS / 2;
-  if (kept > 0)
-    memcpy(s->blots + s->count, blots->list, kept * sizeof *s->blots);
-  s->count += kept;
 }
 
 static celspan_status find_blots(search *s, bool is_bright) {
   const cs_rough *page = s->page;
-  celspan_context *context = page->context;
-  size_t wide = (size_t)page->width, count = wide * (size_t)page->height;
-  size_t columns = (size_t)page->scan.width;
-  float *field;
+  size_t count = (size_t)page->width * (size_t)page->height;
   uint8_t *plane;
   cs_blots blots;
-  CS_TRY(CS_MAKE(context, field, columns));
-  celspan_status status = CS_MAKE(context, plane, count);
-  for (int32_t y = 0; y < page->height && status == CELSPAN_OK; y++)
-    mark_row(page, y, is_bright, field, plane + (size_t)y * wide);
-  if (status == CELSPAN_OK)
-    status = cs_blots_find(context, plane, page->width, page->height, &blots);
-  if (status == CELSPAN_OK) {
-    choose(s, &blots);
-    cs_blots_finish(&blots, context);
-  }
-  cs_mem_free(context->memory, plane, count);
-  cs_mem_free(context->memory, field, columns * sizeof *field);
-  return status;
+  CS_TRY(CS_MAKE(page->context, plane, count));
+  mark(page, is_bright, plane);
+  celspan_status status = cs_blots_find(page->context, plane, page->width, page->height, &blots);
+  cs_mem_free(page->context->memory, plane, count);
+  CS_TRY(status);
+  choose(s, &blots);
+  cs_blots_finish(&blots, page->context);
+  return CELSPAN_OK;
 }
 
 /* ---------------------------------------------------------------- laying the holes */
 
-static celspan_point middle_of(const cs_blot *blot) {
-  return (celspan_point){(blot->x0 + blot->x1) / 2.0, (blot->y0 + blot->y1) / 2.0};
+static celspan_point laid(const laying *l, const cs_hole *hole) {
+  return (celspan_point){l->x + hole->x * l->re - hole->y * l->im,
+                         l->y + hole->x * l->im + hole->y * l->re};
 }
 
-static double larger(double a, double b) { return a > b ? a : b; }
+/* The size of the box around a hole that is laid so. */
+static celspan_point extent(const laying *l, const cs_hole *hole) {
+  double re = fabs(l->re), im = fabs(l->im);
+  return (celspan_point){hole->width * re + hole->height * im,
+                         hole->width * im + hole->height * re};
+}
+
+/* The turn, scale and place that bring holes nearest to where they are. */
+static void fit(const cs_hole *holes, const celspan_point *at, size_t count, laying *out) {
+  double x = 0, y = 0, px = 0, py = 0, re = 0, im = 0, square = 0;
+  for (size_t i = 0; i < count; i++) {
+    x += holes[i].x / (double)count;
+    y += holes[i].y / (double)count;
+    px += at[i].x / (double)count;
+    py += at[i].y / (double)count;
+  }
+  for (size_t i = 0; i < count; i++) {
+    double dx = holes[i].x - x, dy = holes[i].y - y;
+    re += dx * (at[i].x - px) + dy * (at[i].y - py);
+    im += dx * (at[i].y - py) - dy * (at[i].x - px);
+    square += dx * dx + dy * dy;
+  }
+  out->re = re / square;
+  out->im = im / square;
+  out->x = px - x * out->re + y * out->im;
+  out->y = py - x * out->im - y * out->re;
+}
+
+static celspan_point middle_of(const search *s, size_t blot) {
+  const cs_blot *b = &s->blots[blot];
+  const double half = s->page->side / 2.0;
+  return (celspan_point){(b->x0 + b->x1) * half, (b->y0 + b->y1) * half};
+}
+
+static bool is_near(double a, double b, double room) {
+  return fabs(a - b) <= cs_number_most(0.2 * b, room);
+}
 
 /* Whether a blot has the size that a hole has when it is laid so. */
-static bool is_of_size(const laying *l, const cs_blot *blot, const cs_hole *hole) {
-  double re = fabs(l->re), im = fabs(l->im), room = 4;
-  double wide = hole->width * re + hole->height * im, high = hole->width * im + hole->height * re;
-  double area = (re * re + im * im) * hole->width * hole->height;
-  return fabs(blot->x1 - blot->x0 - wide) <= larger(0.2 * wide, room) &&
-         fabs(blot->y1 - blot->y0 - high) <= larger(0.2 * high, room) && blot->area > 0.55 * area &&
-         blot->area < 1.3 * area + room * (wide + high);
+static bool is_of_size(const search *s, const laying *l, size_t blot, const cs_hole *hole) {
+  const cs_blot *b = &s->blots[blot];
+  const double side = s->page->side, room = 4 * side, covered = b->area * side * side;
+  celspan_point size = extent(l, hole);
+  double area = (l->re * l->re + l->im * l->im) * hole->width * hole->height;
+  return is_near((b->x1 - b->x0) * side, size.x, room) &&
+         is_near((b->y1 - b->y0) * side, size.y, room) && covered > 0.55 * area &&
+         covered < 1.3 * area + room * (size.x + size.y);
 }
 
-/* Finds the blot of each hole of a laying. */
+/* Finds the blot of each hole, and how good the laying is: best are all holes at the right scale,
+ * then all at another one, then some at the right one. */
 static void count_holes(const search *s, laying *l) {
   l->found = 0;
   for (size_t h = 0; h < s->hole_count; h++) {
-    const cs_hole *hole = &s->holes[h];
-    double x = l->x + hole->x * l->re - hole->y * l->im;
-    double y = l->y + hole->x * l->im + hole->y * l->re, best = larger(l->re, 2);
+    celspan_point at = laid(l, &s->holes[h]);
+    double best = cs_number_most(l->re, 2 * s->page->side);
     l->of_hole[h] = BLOTS;
     for (size_t i = 0; i < s->count; i++) {
-      celspan_point at = middle_of(&s->blots[i]);
-      double distance = cs_number_length(at.x - x, at.y - y);
-      if (distance >= best || !is_of_size(l, &s->blots[i], hole))
+      celspan_point middle = middle_of(s, i);
+      double distance = cs_number_length(middle.x - at.x, middle.y - at.y);
+      if (distance >= best || !is_of_size(s, l, i, &s->holes[h]))
         continue;
       best = distance;
-      l->of_hole[h] = (uint8_t)i;
+      l->of_hole[h] = i;
     }
     l->found += l->of_hole[h] < BLOTS;
   }
+  bool is_right = fabs(cs_number_length(l->re, l->im) / s->unit - 1) <= MOST_SCALE;
+  bool is_whole = l->found == (int32_t)s->hole_count;
+  l->rank = l->found + (is_right ? CS_ROUGH_HOLES : 0) + (is_whole ? 2 * CS_ROUGH_HOLES : 0);
+  if (l->found < 2 || (!is_right && !is_whole))
+    l->rank = 0;
 }
 
-/* Lays two holes on two blots. Returns whether such a turn and scale are possible. */
-static bool lay(const search *s, const size_t hole[2], const size_t blot[2], laying *out) {
-  const cs_hole *a = &s->holes[hole[0]], *b = &s->holes[hole[1]];
-  celspan_point p = middle_of(&s->blots[blot[0]]), q = middle_of(&s->blots[blot[1]]);
-  double x = b->x - a->x, y = b->y - a->y, dx = q.x - p.x, dy = q.y - p.y;
-  double square = x * x + y * y;
-  if (square == 0)
-    return false;
-  out->re = (dx * x + dy * y) / square;
-  out->im = (dy * x - dx * y) / square;
-  out->x = p.x - a->x * out->re + a->y * out->im;
-  out->y = p.y - a->x * out->im - a->y * out->re;
-  return out->re > s->unit / 8 && out->re < s->unit * 8 && fabs(out->im) <= MOST_TURN * out->re;
-}
-
-static double scale_of(const search *s, const laying *l) {
-  return cs_number_length(l->re, l->im) / s->unit;
-}
-
-static bool is_better(const search *s, const laying *a, const laying *b) {
-  bool is_right = fabs(scale_of(s, a) - 1) <= MOST_SCALE;
-  bool was_right = b->found > 0 && fabs(scale_of(s, b) - 1) <= MOST_SCALE;
-  bool is_whole = a->found == (int32_t)s->hole_count;
-  bool was_whole = b->found == (int32_t)s->hole_count;
-  if (a->found < 2 || (!is_right && !is_whole))
-    return false;
-  if (is_whole != was_whole)
-    return is_whole;
-  return is_right != was_right ? is_right : a->found > b->found;
-}
-
-static void try_pairs(const search *s, const size_t hole[2], laying *best) {
-  for (size_t i = 0; i < s->count; i++)
-    for (size_t j = 0; j < s->count; j++) {
-      laying l;
-      if (i == j || !lay(s, hole, (const size_t[]){i, j}, &l) ||
-          !is_of_size(&l, &s->blots[i], &s->holes[hole[0]]) ||
-          !is_of_size(&l, &s->blots[j], &s->holes[hole[1]]))
-        continue;
-      count_holes(s, &l);
-      if (is_better(s, &l, best))
-        *best = l;
-    }
+/* Lays two holes on two blots, if such a turn and scale are possible. */
+static void try_pair(const search *s, const size_t hole[2], const size_t blot[2], laying *best) {
+  const cs_hole holes[2] = {s->holes[hole[0]], s->holes[hole[1]]};
+  const celspan_point at[2] = {middle_of(s, blot[0]), middle_of(s, blot[1])};
+  laying l;
+  fit(holes, at, 2, &l);
+  if (!(l.re > s->unit / 8 && l.re < s->unit * 8 && fabs(l.im) <= MOST_TURN * l.re) ||
+      !is_of_size(s, &l, blot[0], &holes[0]) || !is_of_size(s, &l, blot[1], &holes[1]))
+    return;
+  count_holes(s, &l);
+  if (l.rank > best->rank)
+    *best = l;
 }
 
 /* ---------------------------------------------------------------- the middle of a hole */
 
-/* How far the pixels of a row of a box are from the paper, as shades. */
-typedef struct shading {
-  const cs_rough *page;
-  float *paper; /* the field of the row */
-} shading;
+/* Some pixels, and how far each is from the paper. */
+typedef struct patch {
+  celspan_rectangle box;
+  float *away;
+} patch;
+
+/* The pixels around a hole that is laid so, as far from the border as the squares of `away`
+ * need. */
+static celspan_rectangle around(const search *s, const laying *l, const cs_hole *hole,
+                                double millimetres) {
+  const cs_scan *scan = &s->page->scan;
+  celspan_point at = laid(l, hole), size = extent(l, hole);
+  double x = size.x / 2 + millimetres * s->unit, y = size.y / 2 + millimetres * s->unit;
+  double side = s->page->side, right = scan->width - side, bottom = scan->height - side;
+  int32_t x0 = (int32_t)cs_number_clamp(at.x - x, side, right);
+  int32_t y0 = (int32_t)cs_number_clamp(at.y - y, side, bottom);
+  return (celspan_rectangle){x0, y0, (int32_t)cs_number_clamp(at.x + x, side, right) - x0,
+                             (int32_t)cs_number_clamp(at.y + y, side, bottom) - y0};
+}
 
 /* The mean of a square, in which grain is little and the middle of a hole stays where it is. */
-static uint8_t shade_at(const shading *s, int32_t x, int32_t y) {
-  const cs_scan *scan = &s->page->scan;
-  const int32_t side = s->page->side;
-  int32_t x0 = x > side ? x - side : 0, x1 = x + side < scan->width ? x + side : scan->width - 1;
-  int32_t y0 = y > side ? y - side : 0, y1 = y + side < scan->height ? y + side : scan->height - 1;
+static float square_at(const cs_rough *page, int32_t x, int32_t y) {
+  const int32_t side = page->side;
   float sum = 0;
-  for (int32_t v = y0; v <= y1; v++)
-    for (int32_t u = x0; u <= x1; u++)
-      sum += cs_rough_brightness(cs_scan_at(scan, u, v));
-  float share = sum / ((float)((x1 - x0 + 1) * (y1 - y0 + 1)) * s->paper[x]);
-  return (uint8_t)cs_number_clampf(fabsf(1 - share) * (SHADES - 1) + 0.5f, 0, SHADES - 1);
+  for (int32_t v = y - side; v <= y + side; v++)
+    for (int32_t u = x - side; u <= x + side; u++)
+      sum += cs_rough_brightness(cs_scan_at(&page->scan, u, v));
+  return sum / (float)((2 * side + 1) * (2 * side + 1));
 }
 
-/* The shade of the inside: of most pixels of the box. */
-static int inside_of(const shading *s, const celspan_rectangle *box) {
-  uint32_t counts[SHADES] = {0}, below = 0;
-  for (int32_t y = box->y; y < box->y + box->height; y++) {
-    cs_rough_field(s->page, y, s->paper);
-    for (int32_t x = box->x; x < box->x + box->width; x++)
-      counts[shade_at(s, x, y)]++;
+/* row: as wide as the page. */
+static void fill_patch(const cs_rough *page, patch *p, float *row) {
+  float *away = p->away;
+  for (int32_t y = p->box.y; y < p->box.y + p->box.height; y++) {
+    cs_rough_field(page, y, row);
+    for (int32_t x = p->box.x; x < p->box.x + p->box.width; x++)
+      *away++ = square_at(page, x, y) / row[x] - 1;
   }
-  uint32_t wanted = (uint32_t)(box->width * box->height) / 10 * 7;
-  int shade = 0;
-  while (shade < SHADES - 1 && (below += counts[shade]) <= wanted)
-    shade++;
-  return shade > 0 ? shade : 1;
 }
 
-/* The middle of what the hole covers: a pixel counts from a quarter of the way between paper and
- * hole on, and fully from three quarters on. */
-static celspan_point middle_in(const shading *s, const celspan_rectangle *box) {
-  double sum = 0, across = 0, down = 0;
-  float inside = (float)inside_of(s, box);
-  for (int32_t y = box->y; y < box->y + box->height; y++) {
-    cs_rough_field(s->page, y, s->paper);
-    for (int32_t x = box->x; x < box->x + box->width; x++) {
-      float cover = cs_number_clampf(2 * (float)shade_at(s, x, y) / inside - 0.5f, 0, 1);
-      sum += (double)cover;
-      across += (double)cover * (x + 0.5);
-      down += (double)cover * (y + 0.5);
-    }
+/* What a hole covers: a pixel counts from a quarter of the way between paper and hole on, and fully
+ * from three quarters on. */
+typedef struct covered {
+  celspan_point middle;
+  double area;
+  bool is_sure; /* the grain around it is much less than its difference from the paper */
+} covered;
+
+/* sign: of the way from the paper to the hole. */
+static covered cover(const patch *p, float sign) {
+  const celspan_rectangle *box = &p->box;
+  double sum = 0, squares = 0, x = 0, y = 0, area = 0, rest = 0, mean = 0, grain = 0;
+  for (int32_t i = 0; i < box->width * box->height; i++) {
+    double way = (double)cs_number_clampf(p->away[i] * sign, 0, 1);
+    sum += way;
+    squares += way * way;
   }
-  return sum > 0 ? (celspan_point){across / sum, down / sum}
-                 : (celspan_point){box->x + box->width / 2.0, box->y + box->height / 2.0};
-}
-
-/* The pixels of a blot, and some around it. */
-static celspan_rectangle around(const search *s, const cs_blot *blot, double millimetres) {
-  const int32_t side = s->page->side, more = cs_number_ceil(millimetres * s->unit * side);
-  int32_t x0 = blot->x0 * side - more, y0 = blot->y0 * side - more;
-  int32_t x1 = blot->x1 * side + more, y1 = blot->y1 * side + more;
-  x0 = x0 > 0 ? x0 : 0;
-  y0 = y0 > 0 ? y0 : 0;
-  x1 = x1 < s->page->scan.width ? x1 : s->page->scan.width;
-  y1 = y1 < s->page->scan.height ? y1 : s->page->scan.height;
-  return (celspan_rectangle){x0, y0, x1 - x0, y1 - y0};
-}
-
-/* The middle of a hole, which the page keeps with some rim, in pixels. */
-static celspan_point measure(const search *s, const cs_blot *blot, float *row) {
-  celspan_rectangle box = around(s, blot, 0.6), rim = around(s, blot, 1.2);
-  shading shades = {s->page, row};
-  s->page->holes[s->page->hole_count++] = (celspan_box){rim.x, rim.y, rim.width, rim.height};
-  return middle_in(&shades, &box);
-}
-
-/* ---------------------------------------------------------------- the fit */
-
-/* The turn, scale and place that are nearest to all holes. unit: pixels for a millimetre. */
-static void fit(const cs_hole *holes, const celspan_point *at, size_t count, double unit,
-                cs_pegs *out) {
-  double n = (double)count, x = 0, y = 0, px = 0, py = 0, re = 0, im = 0, square = 0;
-  for (size_t i = 0; i < count; i++) {
-    x += holes[i].x / n;
-    y += holes[i].y / n;
-    px += at[i].x / n;
-    py += at[i].y / n;
+  for (int32_t i = 0; i < box->width * box->height && sum > 0; i++) {
+    double away = (double)p->away[i] * sum / squares;
+    double share = cs_number_clamp(2 * fabs(away) - 0.5, 0, 1);
+    area += share;
+    x += share * (box->x + i % box->width + 0.5);
+    y += share * (box->y + i / box->width + 0.5);
+    rest += share < 0.5;
+    mean += share < 0.5 ? away : 0;
+    grain += share < 0.5 ? away * away : 0;
   }
-  for (size_t i = 0; i < count; i++) {
-    double dx = holes[i].x - x, dy = holes[i].y - y, ex = at[i].x - px, ey = at[i].y - py;
-    re += dx * ex + dy * ey;
-    im += dx * ey - dy * ex;
-    square += dx * dx + dy * dy;
-  }
-  re /= square;
-  im /= square;
-  out->scale = cs_number_length(re, im) / unit;
-  out->turn = cs_elementary_atan2(im, re);
-  out->x = px - x * re + y * im;
-  out->y = py - x * im - y * re;
-  for (size_t i = 0; i < count; i++)
-    out->error =
-        larger(out->error, cs_number_length(out->x + holes[i].x * re - holes[i].y * im - at[i].x,
-                                            out->y + holes[i].x * im + holes[i].y * re - at[i].y) /
-                               unit);
+  bool is_sure = grain * rest - mean * mean < MOST_GRAIN * MOST_GRAIN * rest * rest;
+  return (covered){{x / area, y / area}, area, area > 0 && is_sure};
 }
 
-static celspan_status measure_all(const search *s, const laying *best, double unit, cs_pegs *out) {
-  celspan_point at[CS_ROUGH_HOLES];
-  float *row;
-  size_t columns = (size_t)s->page->scan.width;
-  CS_TRY(CS_MAKE(s->page->context, row, columns));
-  for (size_t h = 0; h < s->hole_count; h++)
-    at[h] = measure(s, &s->blots[best->of_hole[h]], row);
-  cs_mem_free(s->page->context->memory, row, columns * sizeof *row);
-  fit(s->holes, at, s->hole_count, unit, out);
+/* The middle of hole h, which the page keeps with some rim, in pixels. *found: whether it covers
+ * what it should. row: as wide as the page. */
+static celspan_status measure(const search *s, const laying *l, size_t h, float *row,
+                              celspan_point *out, int32_t *found) {
+  const cs_hole *hole = &s->holes[h];
+  const cs_blot *blot = &s->blots[l->of_hole[h]];
+  const celspan_rectangle rim = around(s, l, hole, 1.2);
+  patch p = {around(s, l, hole, 0.8), NULL};
+  size_t count = (size_t)p.box.width * (size_t)p.box.height;
+  CS_TRY(CS_MAKE(s->page->context, p.away, count));
+  fill_patch(s->page, &p, row);
+  float inside = mean_at(s->page, (blot->x0 + blot->x1) / 2, (blot->y0 + blot->y1) / 2, 1);
+  const covered c = cover(&p, inside > 1 ? 1 : -1);
+  double area = (l->re * l->re + l->im * l->im) * hole->width * hole->height;
+  area *= hole->width == hole->height ? 0.7854 : 1;
+  if (c.is_sure && fabs(c.area / area - 1) < MOST_OFF) {
+    *out = c.middle;
+    ++*found;
+  }
+  s->page->holes[h] = (celspan_box){rim.x, rim.y, rim.width, rim.height};
+  cs_mem_free(s->page->context->memory, p.away, count * sizeof *p.away);
   return CELSPAN_OK;
+}
+
+/* Twice, because the pixels around a hole are better known after the first time. */
+static celspan_status measure_all(const search *s, laying *l, cs_pegs *out) {
+  celspan_point at[CS_ROUGH_HOLES];
+  celspan_context *context = s->page->context;
+  celspan_status status = CELSPAN_OK;
+  float *row;
+  for (size_t h = 0; h < s->hole_count; h++)
+    at[h] = middle_of(s, l->of_hole[h]);
+  CS_TRY(CS_MAKE(context, row, (size_t)s->page->scan.width));
+  for (int pass = 0; pass < 2; pass++) {
+    fit(s->holes, at, s->hole_count, l);
+    out->found = 0;
+    for (size_t h = 0; h < s->hole_count && status == CELSPAN_OK; h++)
+      status = measure(s, l, h, row, &at[h], &out->found);
+  }
+  cs_mem_free(context->memory, row, (size_t)s->page->scan.width * sizeof *row);
+  fit(s->holes, at, s->hole_count, l);
+  for (size_t h = 0; h < s->hole_count; h++) {
+    celspan_point place = laid(l, &s->holes[h]);
+    double off = cs_number_length(place.x - at[h].x, place.y - at[h].y) / s->unit;
+    out->error = cs_number_most(out->error, off);
+  }
+  return status;
 }
 
 celspan_status cs_holes_find(cs_rough *page, double dpi, const cs_hole *holes, size_t count,
                              cs_pegs *out) {
-  search s = {.page = page, .holes = holes, .hole_count = count};
+  search s = {.page = page, .holes = holes, .hole_count = count, .unit = dpi / MILLIMETRES};
   laying best = {.found = 0};
-  double unit = dpi / MILLIMETRES;
-  s.unit = unit / page->side;
   page->hole_count = 0;
   CS_TRY(find_blots(&s, false));
   CS_TRY(find_blots(&s, true));
   for (size_t a = 0; a < count; a++)
     for (size_t b = a + 1; b < count; b++)
-      try_pairs(&s, (const size_t[]){a, b}, &best);
+      for (size_t i = 0; i < s.count; i++)
+        for (size_t j = 0; j < s.count; j++)
+          if (i != j)
+            try_pair(&s, (const size_t[]){a, b}, (const size_t[]){i, j}, &best);
   *out = (cs_pegs){.found = best.found};
-  return best.found == (int32_t)count ? measure_all(&s, &best, unit, out) : CELSPAN_OK;
+  if (best.found < (int32_t)count)
+    return CELSPAN_OK;
+  CS_TRY(measure_all(&s, &best, out));
+  page->hole_count = count;
+  out->scale = cs_number_length(best.re, best.im) / s.unit;
+  out->turn = cs_elementary_atan2(best.im, best.re);
+  out->x = best.x;
+  out->y = best.y;
+  return CELSPAN_OK;
 }

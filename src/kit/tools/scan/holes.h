@@ -7,8 +7,8 @@
  *      [====]            ( )            [====]     ACME: slots of 12.7 x 3.2 mm, 101.6 mm apart
  *                                                  from a round hole of 6.35 mm
  *
- * INVARIANT: the scale is free, so that a scan of another resolution is told from one without
- * holes; the turn is at most about 15 degrees to each side.
+ * INVARIANT: all holes are found at any scale from 1/8 to 8, so that a wrong `dpi` can be named; a
+ * part of them at the right scale alone. The turn is at most about 15 degrees to each side.
  */
 #pragma once
 

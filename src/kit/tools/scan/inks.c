@@ -7,10 +7,9 @@
 #include "inside/number.h"
 #include "tools/scan/blots.h"
 
-/* SHADES of brightness; FULL: of the paper. */
-enum { SHADES = 512, FULL = 400, HALF = 128 };
-/* Of an edge of the paper, in spots: what is not drawn on. */
-#define RIM 3
+/* SHADES of brightness; FULL: of the paper. RIM: of an edge of the paper, in spots, that is not
+ * drawn on. */
+enum { SHADES = 512, FULL = 400, HALF = 128, RIM = 3 };
 /* How much more a hue counts than a darkness. */
 #define HUE 2.0f
 /* The share of the pixels of an ink that are darker than its full colour. */
@@ -20,30 +19,22 @@ enum { SHADES = 512, FULL = 400, HALF = 128 };
 typedef struct making {
   const cs_rough *page;
   const cs_inks_desc *desc;
-  float middle, white; /* of the shares of the field: the paper's, and where ink begins */
-  float *field;        /* of a row */
-  uint8_t *dark;       /* the page: 0 paper .. 255 */
-  uint8_t *ink;        /* the page: the number of the ink; NULL: there is one */
+  size_t width, pixels; /* of the scan */
+  float middle, white;  /* of the shares of the field: the paper's, and where ink begins */
+  float *field;         /* of a row */
+  uint8_t *dark;        /* the page: 0 paper .. 255 */
+  uint8_t *ink;         /* the page: the number of the ink; NULL: there is one */
   cs_inks *out;
 } making;
 
-static size_t size_of(const cs_rough *page) {
-  return (size_t)page->scan.width * (size_t)page->scan.height;
-}
-
-static float paper_at(const making *m) {
-  return 0.301f * m->page->paper[0] + 0.586f * m->page->paper[1] + 0.113f * m->page->paper[2];
-}
-
-/* ---------------------------------------------------------------- black and white */
+/* ---------------------------------------------------------------- darkness */
 
 static void count_row(const making *m, int32_t y, uint32_t counts[SHADES]) {
   int32_t first, end;
-  const unsigned char *code = cs_scan_at(&m->page->scan, 0, y);
-  cs_rough_row(m->page, y, RIM * m->page->side, &first, &end);
+  cs_rough_row(m->page, y, RIM, &first, &end);
   cs_rough_field(m->page, y, m->field);
   for (int32_t x = first; x < end; x++) {
-    float share = cs_rough_brightness(code + 4 * (size_t)x) / m->field[x];
+    float share = cs_rough_brightness(cs_scan_at(&m->page->scan, x, y)) / m->field[x];
     counts[share < (float)SHADES / FULL ? (int)(share * FULL) : SHADES - 1]++;
   }
 }
@@ -77,29 +68,26 @@ static void find_tones(making *m) {
   m->out->black = m->desc->black;
 }
 
-/* ---------------------------------------------------------------- darkness */
-
 /* In a shadow the grain is as large as before it was divided out, times the same. */
-static void darken_row(const making *m, int32_t y, uint8_t *dark) {
+static void darken_row(const making *m, int32_t y) {
   int32_t first, end;
-  float foot = (m->middle - m->white) * paper_at(m);
-  const unsigned char *code = cs_scan_at(&m->page->scan, 0, y);
-  cs_rough_row(m->page, y, RIM * m->page->side, &first, &end);
+  float foot = (m->middle - m->white) * m->page->paper;
+  uint8_t *dark = m->dark + (size_t)y * m->width;
+  cs_rough_row(m->page, y, RIM, &first, &end);
   cs_rough_field(m->page, y, m->field);
   for (int32_t x = first; x < end; x++) {
     float white = m->middle * m->field[x] - foot;
-    float share = cs_rough_brightness(code + 4 * (size_t)x);
-    if (share < white)
-      dark[x] = (uint8_t)((1 - share / white) * 254.5f + 0.5f);
+    float bright = cs_rough_brightness(cs_scan_at(&m->page->scan, x, y));
+    if (bright < white)
+      dark[x] = (uint8_t)((1 - bright / white) * 254.5f + 0.5f);
   }
 }
 
 static void clear_holes(const making *m) {
   for (size_t i = 0; i < m->page->hole_count; i++) {
     const celspan_box *box = &m->page->holes[i];
-    for (int32_t y = 0; y < (int32_t)box->height; y++)
-      memset(m->dark + ((size_t)box->y + (size_t)y) * (size_t)m->page->scan.width + (size_t)box->x,
-             0, (size_t)box->width);
+    for (size_t y = 0; y < (size_t)box->height; y++)
+      memset(m->dark + ((size_t)box->y + y) * m->width + (size_t)box->x, 0, (size_t)box->width);
   }
 }
 
@@ -112,8 +100,7 @@ static celspan_status drop_dust(const making *m) {
   for (size_t i = 0; i < blots.run_count; i++) {
     const cs_blot_run *run = &blots.runs[i];
     if (blots.list[run->blot].area <= m->desc->dust)
-      memset(m->dark + (size_t)run->y * (size_t)scan->width + (size_t)run->x0, 0,
-             (size_t)(run->x1 - run->x0));
+      memset(m->dark + (size_t)run->y * m->width + run->x0, 0, (size_t)(run->x1 - run->x0));
   }
   cs_blots_finish(&blots, m->page->context);
   return CELSPAN_OK;
@@ -121,95 +108,62 @@ static celspan_status drop_dust(const making *m) {
 
 /* ---------------------------------------------------------------- inks apart */
 
-/* From the colour of the paper to another one. */
-static cs_oklab way_of(const float light[3]) {
+/* From the colour of the paper, white, to the colour with these codes. */
+static cs_oklab way_to(const making *m, const float code[3]) {
+  float light[3];
+  for (int c = 0; c < 3; c++)
+    light[c] = m->page->scan.curve.light[cs_srgb8_byte(code[c])];
   cs_oklab lab = cs_oklab_of(light);
   return (cs_oklab){lab.L - 1, HUE * lab.a, HUE * lab.b};
-}
-
-static void find_ways(const making *m, int32_t y, cs_oklab *row) {
-  const cs_scan *scan = &m->page->scan;
-  const uint8_t *dark = m->dark + (size_t)y * (size_t)scan->width;
-  float paper = paper_at(m), light[3];
-  cs_rough_field(m->page, y, m->field);
-  for (int32_t x = 0; x < scan->width; x++) {
-    row[x] = (cs_oklab){0, 0, 0};
-    if (dark[x] == 0)
-      continue;
-    const unsigned char *code = cs_scan_at(scan, x, y);
-    for (int c = 0; c < 3; c++)
-      light[c] = scan->curve.light[cs_srgb8_byte((float)code[c] / 255 * paper /
-                                                 (m->page->paper[c] * m->field[x]))];
-    row[x] = way_of(light);
-  }
-}
-
-/* The ink whose way from the paper is most like this one. */
-static uint8_t nearest(const cs_oklab *ways, size_t count, cs_oklab to) {
-  uint8_t best = 0;
-  float most = -2;
-  for (size_t i = 0; i < count; i++) {
-    const cs_oklab *w = &ways[i];
-    float dot = w->L * to.L + w->a * to.a + w->b * to.b;
-    if (dot <= most)
-      continue;
-    most = dot;
-    best = (uint8_t)i;
-  }
-  return best;
 }
 
 /* The ways of unit length to the inks. */
 static void list_ways(const making *m, cs_oklab *ways) {
   for (size_t i = 0; i < m->desc->count; i++) {
-    float light[3];
-    for (int c = 0; c < 3; c++)
-      light[c] = m->page->scan.curve.light[m->desc->codes[i][c]];
-    cs_oklab way = way_of(light);
+    const unsigned char *code = m->desc->codes[i];
+    cs_oklab way = way_to(m, (const float[]){code[0] / 255.0f, code[1] / 255.0f, code[2] / 255.0f});
     double length = sqrt((double)cs_oklab_apart(way, (cs_oklab){0, 0, 0}));
     float unit = length > 0 ? (float)(1 / length) : 0;
     ways[i] = (cs_oklab){way.L * unit, way.a * unit, way.b * unit};
   }
 }
 
-/* The inks of row y, by the sum over 3 x 3 pixels: the dark ones count most, and they have the
- * purest hue. rows: the ways of the row above, of this one, and of the row below. */
-static void part_row(const making *m, int32_t y, const cs_oklab *ways, cs_oklab *const rows[3]) {
-  int32_t width = m->page->scan.width;
-  size_t first = (size_t)y * (size_t)width;
-  for (int32_t x = 0; x < width; x++) {
-    cs_oklab sum = {0, 0, 0};
-    if (m->dark[first + (size_t)x] == 0)
-      continue;
-    for (int32_t i = x > 0 ? x - 1 : 0; i <= x + 1 && i < width; i++)
-      for (int j = 0; j < 3; j++) {
-        sum.L += rows[j][i].L;
-        sum.a += rows[j][i].a;
-        sum.b += rows[j][i].b;
-      }
-    m->ink[first + (size_t)x] = nearest(ways, m->desc->count, sum);
-  }
+/* By the mean of the 3 x 3 pixels that are drawn: the dark ones count most, and have the purest
+ * hue. */
+static cs_oklab way_at(const making *m, int32_t x, int32_t y) {
+  const cs_rough *page = m->page;
+  uint32_t sum[3] = {0}, count = 0;
+  float code[3];
+  for (int32_t v = y > 0 ? y - 1 : 0; v <= y + 1 && v < page->scan.height; v++)
+    for (int32_t u = x > 0 ? x - 1 : 0; u <= x + 1 && u < page->scan.width; u++) {
+      if (m->dark[(size_t)v * m->width + (size_t)u] == 0)
+        continue;
+      for (int c = 0; c < 3; c++)
+        sum[c] += cs_scan_at(&page->scan, u, v)[c];
+      count += 255;
+    }
+  for (int c = 0; c < 3; c++)
+    code[c] = (float)sum[c] * page->paper / ((float)count * page->code[c] * m->field[x]);
+  return way_to(m, code);
 }
 
-static celspan_status part_inks(const making *m) {
-  cs_oklab ways[CS_INKS_MOST], *rows;
-  size_t width = (size_t)m->page->scan.width;
-  int32_t height = m->page->scan.height;
-  CS_TRY(CS_MAKE(m->page->context, rows, 4 * width)); /* the last one stays clear */
-  list_ways(m, ways);
-  for (int32_t y = -1; y < height; y++) {
-    cs_oklab *at[3];
-    for (int32_t i = 0; i < 3; i++) {
-      int32_t row = y - 1 + i;
-      at[i] = row < 0 || row >= height ? rows + 3 * width : rows + (size_t)(row % 3) * width;
+/* The ink whose way from the paper is most like that of a pixel. */
+static void part_row(const making *m, const cs_oklab *ways, int32_t y) {
+  const size_t row = (size_t)y * m->width;
+  cs_rough_field(m->page, y, m->field);
+  for (size_t x = 0; x < m->width; x++) {
+    float most = -2;
+    if (m->dark[row + x] == 0)
+      continue;
+    const cs_oklab to = way_at(m, (int32_t)x, y);
+    for (size_t i = 0; i < m->desc->count; i++) {
+      float dot = ways[i].L * to.L + ways[i].a * to.a + ways[i].b * to.b;
+      if (dot <= most)
+        continue;
+      most = dot;
+      m->ink[row + x] = (uint8_t)i;
     }
-    if (y + 1 < height)
-      find_ways(m, y + 1, at[2]);
-    if (y >= 0)
-      part_row(m, y, ways, at);
   }
-  cs_mem_free(m->page->context->memory, rows, 4 * width * sizeof *rows);
-  return CELSPAN_OK;
 }
 
 /* ---------------------------------------------------------------- alpha */
@@ -227,60 +181,73 @@ static int full_of(const making *m, size_t ink) {
     float own = most > 0 ? darkness_of(desc->codes[ink]) / most : 1;
     return (int)(255 * (1 - (float)(desc->black / desc->white)) * own + 0.5f);
   }
-  for (size_t i = 0; i < size_of(m->page); i++)
+  for (size_t i = 0; i < m->pixels; i++)
     counts[m->dark[i]] += !m->ink || m->ink[i] == ink;
   counts[0] = 0;
   return (int)(shade_at(counts, 256, 1 - FULL_SHARE) * FULL);
 }
 
-static void fill_plane(const making *m, size_t ink, uint8_t *plane) {
+static celspan_status make_layer(const making *m, size_t ink) {
+  const unsigned char *code = m->desc->codes[ink];
+  cs_layer_desc layer = {.width = m->page->scan.width,
+                         .height = m->page->scan.height,
+                         .code = {code[0], code[1], code[2]},
+                         .place = m->desc->place};
   uint8_t alpha[256];
   int full = full_of(m, ink);
   full = full > LEAST_FULL ? full : LEAST_FULL;
   for (int i = 0; i < 256; i++)
     alpha[i] = (uint8_t)(i < full ? (i * 255 + full / 2) / full : 255);
-  for (size_t i = 0; i < size_of(m->page); i++) {
-    plane[i] = !m->ink || m->ink[i] == ink ? alpha[m->dark[i]] : 0;
-    m->out->covered += plane[i] >= HALF;
+  CS_TRY(CS_MAKE(m->page->context, layer.plane, m->pixels));
+  for (size_t i = 0; i < m->pixels; i++) {
+    layer.plane[i] = !m->ink || m->ink[i] == ink ? alpha[m->dark[i]] : 0;
+    m->out->covered += layer.plane[i] >= HALF;
   }
+  return cs_layer_create(m->page->context, &layer, &m->out->layers[ink]);
 }
 
 /* ---------------------------------------------------------------- together */
 
 static celspan_status make(making *m) {
   celspan_context *context = m->page->context;
-  size_t count = size_of(m->page), width = (size_t)m->page->scan.width;
-  CS_TRY(CS_MAKE(context, m->field, width));
-  CS_TRY(CS_MAKE(context, m->dark, count));
+  const int32_t height = m->page->scan.height;
+  cs_oklab ways[CS_INKS_MOST];
+  CS_TRY(CS_MAKE(context, m->field, m->width));
+  CS_TRY(CS_MAKE(context, m->dark, m->pixels));
   find_tones(m);
-  for (int32_t y = 0; y < m->page->scan.height; y++)
-    darken_row(m, y, m->dark + (size_t)y * width);
+  for (int32_t y = 0; y < height; y++)
+    darken_row(m, y);
   clear_holes(m);
   CS_TRY(drop_dust(m));
   if (m->desc->count > 1) {
-    CS_TRY(CS_MAKE(context, m->ink, count));
-    CS_TRY(part_inks(m));
+    CS_TRY(CS_MAKE(context, m->ink, m->pixels));
+    list_ways(m, ways);
+    for (int32_t y = 0; y < height; y++)
+      part_row(m, ways, y);
   }
-  for (size_t i = 0; i < m->desc->count; i++) {
-    CS_TRY(CS_MAKE(context, m->out->planes[i], count));
-    fill_plane(m, i, m->out->planes[i]);
-  }
+  for (size_t i = 0; i < m->desc->count; i++)
+    CS_TRY(make_layer(m, i));
   return CELSPAN_OK;
 }
 
 celspan_status cs_inks_make(const cs_rough *page, const cs_inks_desc *desc, cs_inks *out) {
   cs_memory *memory = page->context->memory;
-  *out = (cs_inks){.context = page->context, .count = desc->count, .pixels = size_of(page)};
-  making m = {.page = page, .desc = desc, .out = out};
+  const size_t width = (size_t)page->scan.width;
+  making m = {.page = page,
+              .desc = desc,
+              .out = out,
+              .width = width,
+              .pixels = width * (size_t)page->scan.height};
+  *out = (cs_inks){0};
   celspan_status status = make(&m);
-  cs_mem_free(memory, m.field, (size_t)page->scan.width * sizeof *m.field);
-  cs_mem_free(memory, m.dark, out->pixels);
-  cs_mem_free(memory, m.ink, out->pixels);
+  cs_mem_free(memory, m.field, width * sizeof *m.field);
+  cs_mem_free(memory, m.dark, m.pixels);
+  cs_mem_free(memory, m.ink, m.pixels);
   return status;
 }
 
 void cs_inks_finish(cs_inks *inks) {
-  for (size_t i = 0; i < inks->count; i++)
-    cs_mem_free(inks->context->memory, inks->planes[i], inks->pixels);
+  for (size_t i = 0; i < CS_INKS_MOST; i++)
+    celspan_surface_unref(inks->layers[i]);
   *inks = (cs_inks){0};
 }

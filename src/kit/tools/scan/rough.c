@@ -1,15 +1,15 @@
 #include "tools/scan/rough.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "inside/context.h"
+#include "inside/elementary.h"
 #include "inside/number.h"
 #include "inside/sort.h"
 
 /* SPOTS along the longer side: of A4 a spot is a third of a millimetre. POST: spots of a side. FEW:
  * an edge takes more than one line in this many. */
-enum { SPOTS = 900, POST = 8, FILLED = 4, PAD = FILLED, FEW = 40 };
+enum { SPOTS = 900, POST = 8, PAD = CS_ROUGH_PAD, FEW = 40 };
 /* Less of the paper's brightness is what lies behind the paper. */
 #define BEHIND 0.4f
 #define NONE (-1.0f)
@@ -35,119 +35,117 @@ static void whiten(cs_scan *scan) {
 static void fill_row(cs_rough *page, int32_t y) {
   float *spots = page->spots + (size_t)y * (size_t)page->width;
   const int32_t side = page->side;
-  for (int32_t x = 0; x < page->width; x++)
-    spots[x] = 0;
+  const float share = 1.0f / (float)(side * side);
   for (int32_t row = 0; row < side; row++) {
     const unsigned char *code = cs_scan_at(&page->scan, 0, y * side + row);
     for (int32_t x = 0; x < page->width; x++)
       for (int32_t i = 0; i < side; i++, code += 4)
-        spots[x] += cs_rough_brightness(code);
+        spots[x] += cs_rough_brightness(code) * share;
   }
-  for (int32_t x = 0; x < page->width; x++)
-    spots[x] /= (float)(side * side);
 }
 
 /* The medians of the codes in the middles of the spots: most of a scan is paper. */
 static void measure_paper(cs_rough *page) {
   const uint32_t half = (uint32_t)page->width * (uint32_t)page->height / 2;
+  const int32_t side = page->side;
   uint32_t counts[3][256] = {{0}};
   for (int32_t y = 0; y < page->height; y++)
-    for (int32_t x = 0; x < page->width; x++) {
-      int32_t middle = page->side / 2;
-      const unsigned char *code =
-          cs_scan_at(&page->scan, x * page->side + middle, y * page->side + middle);
+    for (int32_t x = 0; x < page->width; x++)
       for (int c = 0; c < 3; c++)
-        counts[c][code[c]]++;
-    }
+        counts[c][cs_scan_at(&page->scan, x * side + side / 2, y * side + side / 2)[c]]++;
   for (int c = 0; c < 3; c++) {
     int code = 0;
     for (uint32_t below = counts[c][0]; below <= half && code < 255; below += counts[c][code])
       code++;
-    page->paper[c] = (float)(code > 0 ? code : 1) / 255;
+    page->code[c] = (float)(code > 0 ? code : 1) / 255;
   }
-}
-
-static float paper_of(const cs_rough *page) {
-  return 0.301f * page->paper[0] + 0.586f * page->paper[1] + 0.113f * page->paper[2];
+  page->paper = 0.301f * page->code[0] + 0.586f * page->code[1] + 0.113f * page->code[2];
 }
 
 /* ---------------------------------------------------------------- edges */
 
-/* The spot `in` spots from a side of the picture, in line i along it. */
-static float spot_from(const cs_rough *page, int side, int32_t i, int32_t in) {
-  bool is_column = side % 2 == 0;
-  int32_t x = is_column ? in : i, y = is_column ? i : in;
-  if (side == 2)
-    x = page->width - 1 - in;
-  if (side == 3)
-    y = page->height - 1 - in;
-  return page->spots[(size_t)y * (size_t)page->width + (size_t)x];
-}
-
 /* How many spots from a side the paper begins in line i; 0: at the side, or not in a quarter. */
 static float paper_from(const cs_rough *page, int side, int32_t i) {
-  int32_t most = (side % 2 == 0 ? page->width : page->height) / 4;
-  float limit = BEHIND * paper_of(page), before = 0;
-  for (int32_t in = 0; in <= most; in++) {
-    float here = spot_from(page, side, i, in);
-    if (here >= limit)
-      return in == 0 ? 0 : (float)in + 0.5f - (here - limit) / (here - before);
-    before = here;
+  const ptrdiff_t wide = page->width, high = page->height;
+  ptrdiff_t step = side % 2 == 0 ? 1 : wide, along = side % 2 == 0 ? wide : 1;
+  const float *spot = page->spots + i * along;
+  float limit = BEHIND * page->paper, before = 0;
+  if (side >= 2) {
+    spot += step * ((side == 2 ? wide : high) - 1);
+    step = -step;
+  }
+  for (int32_t in = 0; in <= (side % 2 == 0 ? wide : high) / 4; in++, spot += step) {
+    if (*spot >= limit)
+      return in == 0 ? 0 : (float)in + 0.5f - (*spot - limit) / (*spot - before);
+    before = *spot;
   }
   return 0;
 }
 
-/* Where the paper begins along a side: `count` places, each in the middle of a line. */
-typedef struct places {
-  size_t count;
-  float *lines, *at, *rest; /* rest: as much room */
-} places;
-
-/* The line through most of the places, by medians, so that what is drawn across the edge and the
- * ends of the other edges do not count. Returns whether the places agree on it. In spots. */
-static bool fit_edge(const places *p, double line[2]) {
-  size_t half = p->count / 2;
+/* The line through most of the places at[i] of the lines[i], by medians, so that what is drawn
+ * across the edge and the ends of the other edges do not count. Returns whether the places agree on
+ * it. In spots. rest: as much room. */
+static bool fit_edge(const float *lines, const float *at, size_t count, float *rest,
+                     double line[2]) {
+  size_t half = count / 2, near = 0;
   for (size_t i = 0; i < half; i++)
-    p->rest[i] = (p->at[i + half] - p->at[i]) / (p->lines[i + half] - p->lines[i]);
-  line[1] = (double)sorted_at(p->rest, half, 0.5);
-  for (size_t i = 0; i < p->count; i++)
-    p->rest[i] = p->at[i] - (float)line[1] * p->lines[i];
-  double middle = (double)sorted_at(p->rest, p->count, 0.5), sum = 0;
-  size_t near = 0;
-  for (size_t i = 0; i < p->count; i++)
-    if (fabs((double)p->rest[i] - middle) <= 1) {
-      sum += (double)p->rest[i];
+    rest[i] = (at[i + half] - at[i]) / (lines[i + half] - lines[i]);
+  line[1] = (double)sorted_at(rest, half, 0.5);
+  for (size_t i = 0; i < count; i++)
+    rest[i] = at[i] - (float)line[1] * lines[i];
+  double middle = (double)sorted_at(rest, count, 0.5), sum = 0;
+  for (size_t i = 0; i < count; i++)
+    if (fabs((double)rest[i] - middle) <= 1) {
+      sum += (double)rest[i];
       near++;
     }
   line[0] = sum / (double)near;
-  return 2 * near > p->count;
+  return 2 * near > count;
 }
 
-/* Where only a few lines begin later than at the side, they are drawn there. */
-static void find_edge(cs_rough *page, int side, places *p) {
-  int32_t count = side % 2 == 0 ? page->height : page->width;
+/* Where only a few lines begin later than at the side, they are drawn there. numbers: three for
+ * each line. */
+static void find_edge(cs_rough *page, int side, float *numbers) {
+  size_t lines = (size_t)(side % 2 == 0 ? page->height : page->width), count = 0;
+  float *at = numbers + lines;
   double line[2];
-  p->count = 0;
-  for (int32_t i = 0; i < count; i++) {
-    float at = paper_from(page, side, i);
-    p->lines[p->count] = (float)i + 0.5f;
-    p->at[p->count] = at;
-    p->count += at > 0;
+  for (size_t i = 0; i < lines; i++) {
+    at[count] = paper_from(page, side, (int32_t)i);
+    numbers[count] = (float)i + 0.5f;
+    count += at[count] > 0;
   }
-  page->has_edge[side] = (int32_t)p->count > count / FEW && fit_edge(p, line);
-  page->edges[side][0] = page->has_edge[side] ? line[0] * page->side : 0;
-  page->edges[side][1] = page->has_edge[side] ? line[1] : 0;
+  if (count <= lines / FEW || count < 2 || !fit_edge(numbers, at, count, at + lines, line))
+    return;
+  page->has_edge[side] = true;
+  page->edges[side][0] = line[0] * page->side;
+  page->edges[side][1] = line[1];
 }
 
 static celspan_status find_edges(cs_rough *page) {
-  size_t room = (size_t)(page->width > page->height ? page->width : page->height);
+  size_t room = 3 * (size_t)(page->width > page->height ? page->width : page->height);
   float *numbers;
-  CS_TRY(CS_MAKE(page->context, numbers, 3 * room));
-  places p = {0, numbers, numbers + room, numbers + 2 * room};
+  CS_TRY(CS_MAKE(page->context, numbers, room));
   for (int side = 0; side < 4; side++)
-    find_edge(page, side, &p);
-  cs_mem_free(page->context->memory, numbers, 3 * room * sizeof *numbers);
+    find_edge(page, side, numbers);
+  cs_mem_free(page->context->memory, numbers, room * sizeof *numbers);
   return CELSPAN_OK;
+}
+
+/* The middle is where the lines between opposite sides meet. */
+bool cs_rough_paper(const cs_rough *page, cs_rough_place *out) {
+  const double(*edges)[2] = page->edges;
+  double x = (edges[0][0] + page->scan.width - edges[2][0]) / 2;
+  double y = (edges[1][0] + page->scan.height - edges[3][0]) / 2;
+  double right = (edges[0][1] - edges[2][1]) / 2, down = (edges[1][1] - edges[3][1]) / 2;
+  double slope = (down - right) / 2;
+  *out = (cs_rough_place){.turn = cs_elementary_atan2(slope, 1)};
+  out->x = (x + right * y) / (1 - right * down);
+  out->y = y + down * out->x;
+  for (int side = 0; side < 4; side++) {
+    double own = side == 0 || side == 3 ? -edges[side][1] : edges[side][1];
+    out->error = cs_number_most(out->error, fabs(own - slope));
+  }
+  return page->has_edge[0] && page->has_edge[1] && page->has_edge[2] && page->has_edge[3];
 }
 
 /* Cuts first .. end where slope * x <= rest does not hold. */
@@ -164,7 +162,7 @@ void cs_rough_row(const cs_rough *page, int32_t y, double margin, int32_t *first
   const double width = page->scan.width, middle = y + 0.5;
   double at[4];
   for (int side = 0; side < 4; side++)
-    at[side] = page->edges[side][0] + (page->has_edge[side] ? margin : 0);
+    at[side] = page->edges[side][0] + (page->has_edge[side] ? margin * page->side : 0);
   double from = at[0] + page->edges[0][1] * middle;
   double to = width - at[2] - page->edges[2][1] * middle;
   cut(page->edges[1][1], middle - at[1], &from, &to);
@@ -173,14 +171,20 @@ void cs_rough_row(const cs_rough *page, int32_t y, double margin, int32_t *first
   *end = cs_number_first_centre(cs_number_clamp(to, 0, width));
 }
 
+/* The same for spots, which lie wholly on the paper. */
+static void spots_of(const cs_rough *page, int32_t y, int32_t *first, int32_t *end) {
+  cs_rough_row(page, y * page->side + page->side / 2, 2, first, end);
+  *first = (*first + page->side - 1) / page->side;
+  *end = *end / page->side < page->width ? *end / page->side : page->width;
+}
+
 /* ---------------------------------------------------------------- field */
 
 /* The greatest, or the least, of the known numbers around each one, along one direction. */
-static void spread(const float *from, size_t count, ptrdiff_t step, bool is_most, float *to) {
-  for (ptrdiff_t i = 0; i < (ptrdiff_t)count; i++) {
+static void spread(const float *from, ptrdiff_t count, ptrdiff_t step, bool is_most, float *to) {
+  for (ptrdiff_t i = 0; i < count; i++) {
     float best = NONE;
-    ptrdiff_t first = i < FILLED ? 0 : i - FILLED;
-    for (ptrdiff_t j = first; j <= i + FILLED && j < (ptrdiff_t)count; j++) {
+    for (ptrdiff_t j = i < PAD ? 0 : i - PAD; j <= i + PAD && j < count; j++) {
       float value = from[j * step];
       if (value >= 0 && (best < 0 || (is_most ? value > best : value < best)))
         best = value;
@@ -189,32 +193,20 @@ static void spread(const float *from, size_t count, ptrdiff_t step, bool is_most
   }
 }
 
-/* A padded grid. */
-typedef struct grid {
-  size_t width, height;
-  float *values, *rest;
-} grid;
-
-static void spread_both(const grid *g, bool is_most) {
-  for (size_t y = 0; y < g->height; y++)
-    spread(g->values + y * g->width, g->width, 1, is_most, g->rest + y * g->width);
-  for (size_t x = 0; x < g->width; x++)
-    spread(g->rest + x, g->height, (ptrdiff_t)g->width, is_most, g->values + x);
-}
-
-static bool is_pad(const grid *g, size_t i) {
-  size_t x = i % g->width, y = i / g->width;
-  return x < PAD || y < PAD || x >= g->width - PAD || y >= g->height - PAD;
-}
-
-/* Fills what is darker than its surroundings, or brighter. The pads keep a slope at the border as
- * it is. */
-static void fill_narrow(const grid *g, bool is_dark) {
-  for (size_t i = 0; i < g->width * g->height; i++)
-    if (is_pad(g, i))
-      g->values[i] = NONE;
-  spread_both(g, is_dark);
-  spread_both(g, !is_dark);
+/* Fills what is narrow and darker than its surroundings, or brighter. The pads keep a slope at the
+ * border as it is. rest: as much room as the field has. */
+static void fill_narrow(cs_rough *page, bool is_dark, float *rest) {
+  ptrdiff_t across = page->across, down = page->down;
+  for (ptrdiff_t y = 0; y < down; y++)
+    for (ptrdiff_t x = 0; x < across; x++)
+      if (x < PAD || y < PAD || x >= across - PAD || y >= down - PAD)
+        page->field[y * across + x] = NONE;
+  for (int pass = 0; pass < 2; pass++) {
+    for (ptrdiff_t y = 0; y < down; y++)
+      spread(page->field + y * across, across, 1, is_dark == (pass == 0), rest + y * across);
+    for (ptrdiff_t x = 0; x < across; x++)
+      spread(rest + x, down, across, is_dark == (pass == 0), page->field + x);
+  }
 }
 
 /* The paper in the spots of a post: brighter than most of them. */
@@ -223,85 +215,89 @@ static float post_of(const cs_rough *page, int32_t column, int32_t row) {
   size_t count = 0;
   for (int32_t y = row * POST; y < (row + 1) * POST && y < page->height; y++) {
     int32_t first, end;
-    cs_rough_row(page, y * page->side + page->side / 2, 2 * page->side, &first, &end);
-    for (int32_t x = column * POST; x < (column + 1) * POST && x < page->width; x++)
-      if (x * page->side >= first && (x + 1) * page->side <= end)
-        values[count++] = page->spots[(size_t)y * (size_t)page->width + (size_t)x];
+    spots_of(page, y, &first, &end);
+    first = first > column * POST ? first : column * POST;
+    end = end < (column + 1) * POST ? end : (column + 1) * POST;
+    for (int32_t x = first; x < end; x++)
+      values[count++] = page->spots[(size_t)y * (size_t)page->width + (size_t)x];
   }
   return count >= POST ? sorted_at(values, count, 0.6) : NONE;
 }
 
-static void fill_field(cs_rough *page, const grid *g) {
-  for (size_t i = 0; i < g->width * g->height; i++)
-    g->values[i] =
-        is_pad(g, i) ? NONE
-                     : post_of(page, (int32_t)(i % g->width) - PAD, (int32_t)(i / g->width) - PAD);
-  fill_narrow(g, true);
-  fill_narrow(g, false);
-  for (int32_t y = 0; y < page->down; y++)
-    for (int32_t x = 0; x < page->across; x++) {
-      float value = g->values[(size_t)(y + PAD) * g->width + (size_t)(x + PAD)];
-      page->field[(size_t)y * (size_t)page->across + (size_t)x] =
-          value > 0.05f ? value : paper_of(page);
-    }
-}
-
 static celspan_status make_field(cs_rough *page) {
-  page->across = (page->width + POST - 1) / POST;
-  page->down = (page->height + POST - 1) / POST;
-  CS_TRY(CS_MAKE(page->context, page->field, (size_t)page->across * (size_t)page->down));
-  grid g = {(size_t)page->across + 2 * PAD, (size_t)page->down + 2 * PAD, NULL, NULL};
-  size_t count = g.width * g.height;
-  CS_TRY(CS_MAKE(page->context, g.values, 2 * count));
-  g.rest = g.values + count;
-  fill_field(page, &g);
-  cs_mem_free(page->context->memory, g.values, 2 * count * sizeof *g.values);
+  page->across = (page->width + POST - 1) / POST + 2 * PAD;
+  page->down = (page->height + POST - 1) / POST + 2 * PAD;
+  size_t count = (size_t)page->across * (size_t)page->down;
+  float *rest, *post;
+  CS_TRY(CS_MAKE(page->context, page->field, count));
+  CS_TRY(CS_MAKE(page->context, rest, count));
+  post = page->field;
+  for (int32_t y = -PAD; y < page->down - PAD; y++)
+    for (int32_t x = -PAD; x < page->across - PAD; x++)
+      *post++ = x < 0 || y < 0 ? NONE : post_of(page, x, y);
+  fill_narrow(page, true, rest);
+  fill_narrow(page, false, rest);
+  for (size_t i = 0; i < count; i++)
+    page->field[i] = page->field[i] > 0.05f ? page->field[i] : page->paper;
+  cs_mem_free(page->context->memory, rest, count * sizeof *rest);
   return CELSPAN_OK;
 }
 
-/* The posts before and after a pixel, and the share of the later one. */
-static float between(int32_t at, int32_t side, int32_t count, int32_t *before, int32_t *after) {
-  float place = ((float)at + 0.5f) / (float)(side * POST) - 0.5f;
-  *before = place > 0 ? (int32_t)place : 0;
-  *after = *before + 1 < count ? *before + 1 : count - 1;
-  *before = *before < count ? *before : count - 1;
-  return cs_number_clampf(place - (float)*before, 0, 1);
+/* The field at the height of row y, at post `at` of the page, its pads included. */
+static float post_at(const cs_rough *page, int32_t y, int32_t at) {
+  float place = ((float)y + 0.5f) / (float)(page->side * POST) - 0.5f + PAD;
+  const float *upper = page->field + (ptrdiff_t)place * page->across + at;
+  return upper[0] + (place - (float)(int32_t)place) * (upper[page->across] - upper[0]);
 }
 
 void cs_rough_field(const cs_rough *page, int32_t y, float *row) {
-  int32_t above, below, left, right;
-  float v = between(y, page->side, page->down, &above, &below);
-  const float *upper = page->field + (size_t)above * (size_t)page->across;
-  const float *lower = page->field + (size_t)below * (size_t)page->across;
-  for (int32_t x = 0; x < page->scan.width; x++) {
-    float u = between(x, page->side, page->across, &left, &right);
-    float a = upper[left] + v * (lower[left] - upper[left]);
-    float b = upper[right] + v * (lower[right] - upper[right]);
-    row[x] = a + u * (b - a);
+  const int32_t post = page->side * POST;
+  const float step = 1.0f / (float)post;
+  for (int32_t at = PAD - 1, x = -(post / 2); x < page->scan.width; at++, x += post) {
+    float before = post_at(page, y, at), slope = (post_at(page, y, at + 1) - before) * step;
+    int32_t first = x > 0 ? x : 0;
+    int32_t end = x + post < page->scan.width ? x + post : page->scan.width;
+    for (int32_t i = first; i < end; i++)
+      row[i] = before + slope * ((float)(i - x) + 0.5f);
   }
 }
 
 /* ---------------------------------------------------------------- a page */
+
+static celspan_status share_spots(cs_rough *page) {
+  float *field;
+  CS_TRY(CS_MAKE(page->context, field, (size_t)page->scan.width));
+  for (int32_t y = 0; y < page->height; y++) {
+    float *spots = page->spots + (size_t)y * (size_t)page->width;
+    int32_t first, end;
+    spots_of(page, y, &first, &end);
+    cs_rough_field(page, y * page->side + page->side / 2, field);
+    for (int32_t x = 0; x < page->width; x++)
+      spots[x] = x >= first && x < end ? spots[x] / field[x * page->side + page->side / 2] : 1;
+  }
+  cs_mem_free(page->context->memory, field, (size_t)page->scan.width * sizeof *field);
+  return CELSPAN_OK;
+}
 
 static celspan_status fill(cs_rough *page, const cs_picture *picture) {
   CS_TRY(cs_scan_read(page->context, picture, &page->scan));
   if (page->scan.has_clear)
     whiten(&page->scan);
   int32_t wide = page->scan.width, high = page->scan.height, longer = wide > high ? wide : high;
-  int32_t shorter = wide < high ? wide : high;
   page->side = longer < SPOTS ? 1 : (longer + SPOTS / 2) / SPOTS;
-  if (shorter / page->side < 2 * POST)
+  page->width = wide / page->side;
+  page->height = high / page->side;
+  if (page->width < 2 * POST || page->height < 2 * POST)
     return cs_fail(page->context, CELSPAN_BAD_ARGUMENT,
                    "%s: %d x %d pixels are too few for a scanned drawing", cs_picture_name(picture),
                    wide, high);
-  page->width = wide / page->side;
-  page->height = high / page->side;
   CS_TRY(CS_MAKE(page->context, page->spots, (size_t)page->width * (size_t)page->height));
   for (int32_t y = 0; y < page->height; y++)
     fill_row(page, y);
   measure_paper(page);
   CS_TRY(find_edges(page));
-  return make_field(page);
+  CS_TRY(make_field(page));
+  return share_spots(page);
 }
 
 celspan_status cs_rough_create(celspan_context *context, const cs_picture *picture,

@@ -1,7 +1,7 @@
 /* By how much the lines of a page lie elsewhere than those of another one, without a turn.
  *
- *   darkness of the spots, halved three times --> every shift of a twelfth of the page
- *     --> the best one, doubled, and its neighbours in the next larger plane --> ... --> pixels
+ *   darkness of the spots, at halved sizes --> at the smallest every shift of a twelfth of the page
+ *     --> the best one, doubled, and its neighbours at the next larger size --> ... --> pixels
  *
  * INVARIANT: pages of one size; the best shift is where the products of darkness add up to most.
  */
