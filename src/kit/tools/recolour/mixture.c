@@ -4,18 +4,13 @@
 #include <stdlib.h>
 
 #include "inside/colour.h"
+#include "inside/sort.h"
 
 /* ---------------------------------------------------------------- tables */
 
-static int key_of(const double code[3]) {
-  int key = 0;
-  for (int c = 0; c < 3; c++)
-    key = key << 8 | (int)(fmin(fmax(code[c], 0), 1) * 255 + 0.5);
-  return key;
-}
-
 static int compare(const void *a, const void *b) {
-  return key_of(((const cs_swatch *)a)->code) - key_of(((const cs_swatch *)b)->code);
+  const double x = ((const cs_swatch *)a)->code[0], y = ((const cs_swatch *)b)->code[0];
+  return CS_SORT_ORDER(x, y);
 }
 
 static double mixed(const cs_swatches *swatches, double code) {
@@ -51,19 +46,19 @@ void cs_swatches_finish(celspan_context *context, cs_swatches *swatches) {
 
 const cs_swatch *cs_swatches_find(const cs_swatches *swatches, const double code[3],
                                   double within) {
-  int key = key_of(code);
   size_t low = 0, high = swatches->count;
   while (low < high) {
     size_t middle = low + (high - low) / 2;
-    if (key_of(swatches->list[middle].code) < key)
+    if (swatches->list[middle].code[0] < code[0] - within)
       low = middle + 1;
     else
       high = middle;
   }
-  for (; low < swatches->count && key_of(swatches->list[low].code) == key; low++) {
+  for (; low < swatches->count; low++) {
     const double *own = swatches->list[low].code;
-    if (fabs(own[0] - code[0]) <= within && fabs(own[1] - code[1]) <= within &&
-        fabs(own[2] - code[2]) <= within)
+    if (own[0] > code[0] + within)
+      return NULL;
+    if (fabs(own[1] - code[1]) <= within && fabs(own[2] - code[2]) <= within)
       return &swatches->list[low];
   }
   return NULL;

@@ -19,7 +19,7 @@ typedef struct cs_swatch {
   double code[3]; /* the old colour's codes */
 } cs_swatch;
 
-/* By their codes in 8 bits, ascending. */
+/* By their red, ascending. */
 typedef struct cs_swatches {
   cs_swatch *list;
   size_t count;

@@ -1,13 +1,14 @@
 #include "tools/recolour/painting.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "inside/colour.h"
 
 /* How far the codes of a pixel are from a mixture that was rounded to 8 or 16 bits, at most. */
 #define ROUNDED (0.9 / 255)
 #define ROUNDED_FINELY (1.3 / 65535)
-enum { MOST = 8, STRANGE = 4 };
+enum { MOST = 8 };
 
 /* Marks of pixels that have no colour of the table: alone, or of an area. */
 static const cs_swatch alone, area;
@@ -85,9 +86,8 @@ typedef struct search {
   int32_t x, y;
   float alpha;
   cs_mixture mixture;
-  const cs_swatch *near[MOST]; /* the nearest first */
-  size_t count, table_count;   /* the first ones are of the table */
-  cs_swatch strange[STRANGE];
+  cs_swatch near[MOST];      /* the nearest first */
+  size_t count, table_count; /* the first ones are of the table */
 } search;
 
 static bool is_found(const search *s) { return s->mixture.off <= s->painting->rounded; }
@@ -95,52 +95,37 @@ static bool is_found(const search *s) { return s->mixture.off <= s->painting->ro
 /* Adds a colour and tries it with each one before. */
 static void add(search *s, const cs_swatch *colour) {
   for (size_t i = 0; i < s->count; i++)
-    if (s->near[i] == colour)
+    if (memcmp(s->near[i].code, colour->code, sizeof colour->code) == 0)
       return;
   if (s->count == MOST)
     return;
   for (size_t i = 0; i < s->count; i++)
-    cs_mixture_try(&s->mixture, s->near[i], colour, NULL);
-  s->near[s->count++] = colour;
+    cs_mixture_try(&s->mixture, &s->near[i], colour, NULL);
+  s->near[s->count++] = *colour;
 }
 
-static void add_strange(search *s, int32_t x, int32_t y) {
-  double code[3];
-  size_t known = s->count - s->table_count;
-  code_of(pixel(s->painting, x, y), code);
-  for (size_t i = 0; i < known; i++)
-    if (s->strange[i].code[0] == code[0] && s->strange[i].code[1] == code[1] &&
-        s->strange[i].code[2] == code[2])
-      return;
-  if (known == STRANGE || s->count == MOST)
-    return;
-  s->strange[known] = cs_swatches_stay(s->painting->swatches, code);
-  add(s, &s->strange[known]);
-}
-
-/* A neighbour with a colour of the table; of a pixel with alpha it may be the whole mixture. */
-static void add_exact(search *s, const cs_swatch *colour) {
-  if (s->alpha < 1)
-    cs_mixture_try(&s->mixture, colour, colour, NULL);
-  add(s, colour);
-}
-
-static int32_t squared(const int8_t at[2]) { return at[0] * at[0] + at[1] * at[1]; }
-
-/* Visits the pixels around, the nearest first, until those of one distance explain the colour. */
+/* Adds the pixels around, the nearest first, until those of one distance explain the colour: those
+ * of the table, or else those of areas with colours that stay. A pixel with alpha may be a colour
+ * of the table alone. */
 static void visit(search *s, bool is_strange) {
   const cs_painting *painting = s->painting;
   for (int i = 0; i < CS_PAINTING_AROUND; i++) {
     const int8_t *to = painting->around[i];
-    if (i > 0 && squared(to) > squared(painting->around[i - 1]) && is_found(s))
+    int32_t x = s->x + to[0], y = s->y + to[1];
+    if (to[2] && is_found(s))
       return;
-    if (!is_inside(painting, s->x + to[0], s->y + to[1]))
+    const cs_swatch *exact = is_inside(painting, x, y) ? *exact_at(painting, x, y) : NULL;
+    cs_swatch stays;
+    double code[3];
+    if (!exact || exact == &alone || (exact == &area) != is_strange)
       continue;
-    const cs_swatch *exact = *exact_at(painting, s->x + to[0], s->y + to[1]);
-    if (is_strange && exact == &area)
-      add_strange(s, s->x + to[0], s->y + to[1]);
-    else if (!is_strange && exact && exact != &alone && exact != &area)
-      add_exact(s, exact);
+    if (is_strange) {
+      code_of(pixel(painting, x, y), code);
+      stays = cs_swatches_stay(painting->swatches, code);
+    } else if (s->alpha < 1) {
+      cs_mixture_try(&s->mixture, exact, exact, NULL);
+    }
+    add(s, is_strange ? &stays : exact);
   }
 }
 
@@ -151,23 +136,22 @@ static void search_around(search *s, bool is_strange) {
   for (size_t i = 2; i < s->count && !is_found(s); i++)
     for (size_t j = 1; j < i; j++)
       for (size_t k = 0; k < j; k++)
-        cs_mixture_try(&s->mixture, s->near[i], s->near[j], s->near[k]);
+        cs_mixture_try(&s->mixture, &s->near[i], &s->near[j], &s->near[k]);
 }
 
 static void try_all(search *s) {
   const cs_swatches *swatches = s->painting->swatches;
   for (size_t i = 0; i < swatches->count; i++) {
-    cs_mixture_try(&s->mixture, s->near[0], &swatches->list[i], NULL);
+    cs_mixture_try(&s->mixture, &s->near[0], &swatches->list[i], NULL);
     if (s->table_count > 1) {
-      cs_mixture_try(&s->mixture, s->near[1], &swatches->list[i], NULL);
-      cs_mixture_try(&s->mixture, s->near[0], s->near[1], &swatches->list[i]);
+      cs_mixture_try(&s->mixture, &s->near[1], &swatches->list[i], NULL);
+      cs_mixture_try(&s->mixture, &s->near[0], &s->near[1], &swatches->list[i]);
     }
   }
 }
 
 /* The new colour of a pixel that has none exactly; false: it stays. */
-static bool mix(search *s, const float rgba[4], const double code[3]) {
-  s->alpha = rgba[3];
+static bool mix(search *s, const double code[3]) {
   s->mixture = cs_mixture_begin(s->painting->swatches, code);
   /* A faint colour may have been rounded after it was multiplied by its alpha. */
   const double faint = ROUNDED / (double)s->alpha;
@@ -181,41 +165,41 @@ static bool mix(search *s, const float rgba[4], const double code[3]) {
 
 /* ---------------------------------------------------------------- pixels */
 
-static void set(cs_painting *painting, float *rgba, const double to[3]) {
-  double light[3];
+static void recolour(cs_painting *painting, int32_t x, int32_t y) {
+  const cs_swatch *exact = *exact_at(painting, x, y);
+  const double *to = exact ? exact->to : NULL;
+  float *rgba = painting->rgba + (pixel(painting, x, y) - painting->rgba);
+  search s = {.painting = painting, .x = x, .y = y, .alpha = rgba[3]};
+  double code[3], light[3];
+  if (!exact)
+    return;
+  if (exact == &alone || exact == &area) {
+    code_of(rgba, code);
+    to = exact == &alone && mix(&s, code) ? s.mixture.colour.to : NULL;
+  }
+  if (!to && painting->report && s.count == s.table_count)
+    painting->report(painting->user, code, x, y);
+  if (!to)
+    return;
   cs_swatches_light(painting->swatches, to, light);
   for (int c = 0; c < 3; c++)
     rgba[c] = (float)(light[c] * (double)rgba[3]);
   painting->is_changed = true;
 }
 
-static void recolour(cs_painting *painting, int32_t x, int32_t y) {
-  const cs_swatch *exact = *exact_at(painting, x, y);
-  float *rgba = painting->rgba + (pixel(painting, x, y) - painting->rgba);
-  search s = {.painting = painting, .x = x, .y = y};
-  double code[3];
-  if (!exact)
-    return;
-  if (exact != &alone && exact != &area) {
-    set(painting, rgba, exact->to);
-    return;
-  }
-  code_of(rgba, code);
-  if (exact == &alone && mix(&s, rgba, code))
-    set(painting, rgba, s.mixture.colour.to);
-  else if (painting->report && s.count == s.table_count)
-    painting->report(painting->user, code, x, y);
-}
-
 static void order_around(cs_painting *painting) {
   int count = 0;
-  for (int distance = 1; distance <= 2 * CS_PAINTING_RADIUS * CS_PAINTING_RADIUS; distance++)
+  for (int distance = 1; distance <= 2 * CS_PAINTING_RADIUS * CS_PAINTING_RADIUS; distance++) {
+    int first = count;
     for (int8_t dy = -CS_PAINTING_RADIUS; dy <= CS_PAINTING_RADIUS; dy++)
       for (int8_t dx = -CS_PAINTING_RADIUS; dx <= CS_PAINTING_RADIUS; dx++)
         if (dx * dx + dy * dy == distance) {
-          painting->around[count][0] = dx;
-          painting->around[count++][1] = dy;
+          int8_t *to = painting->around[count++];
+          to[0] = dx;
+          to[1] = dy;
+          to[2] = count == first + 1;
         }
+  }
 }
 
 celspan_status cs_painting_recolour(celspan_context *context, cs_painting *painting) {

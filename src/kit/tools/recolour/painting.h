@@ -30,10 +30,10 @@ typedef struct cs_painting {
   void (*report)(void *user, const double code[3], int32_t x, int32_t y);
   void *user;
   /* scratch: how far a mixture may be off, of each pixel its colour or a mark, and the ways to its
-   * neighbours, shortest first */
+   * neighbours, shortest first: x, y, and whether it is longer than the one before */
   double rounded;
   const cs_swatch **exact;
-  int8_t around[CS_PAINTING_AROUND][2];
+  int8_t around[CS_PAINTING_AROUND][3];
 } cs_painting;
 
 /* Errors: NO_MEMORY. */

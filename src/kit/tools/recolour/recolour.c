@@ -78,70 +78,68 @@ static void recolour_paints(cs_recolour *recolour, celspan_texture *texture, boo
 
 /* ---------------------------------------------------------------- paintings */
 
-static celspan_status read(celspan_context *context, cs_original *original, cs_unlit *unlit) {
-  const int32_t width = original->info.width, height = original->info.height;
-  CS_TRY(cs_unlit_create(context, width, height, false, unlit));
-  celspan_status status = CELSPAN_OK;
-  for (int32_t y = 0; y < height && status == CELSPAN_OK; y += CS_ORIGINAL_ROWS) {
-    status = cs_original_read(context, original, y);
+static celspan_status read(celspan_context *context, cs_original *original, const cs_unlit *unlit) {
+  for (int32_t y = 0; y < unlit->height; y += CS_ORIGINAL_ROWS) {
+    CS_TRY(cs_original_read(context, original, y));
     size_t rows = (size_t)(cs_original_end(original, y) - y);
-    if (status == CELSPAN_OK)
-      memcpy(cs_unlit_paint(unlit, 0, y), original->rows, rows * (size_t)width * 4 * sizeof(float));
+    memcpy(cs_unlit_paint(unlit, 0, y), original->rows,
+           rows * (size_t)unlit->width * 4 * sizeof(float));
   }
-  if (status != CELSPAN_OK)
-    cs_unlit_discard(context, unlit);
+  return CELSPAN_OK;
+}
+
+static celspan_status change_pixels(cs_recolour *recolour, cs_original *original,
+                                    const cs_unlit *unlit, bool *is_changed) {
+  bool is_half = original->info.is_float;
+  cs_painting painting = {.swatches = &recolour->swatches,
+                          .width = unlit->width,
+                          .height = unlit->height,
+                          .rgba = unlit->paint,
+                          .within = is_half ? CS_PAINTING_WITHIN_HALF : CS_PAINTING_WITHIN,
+                          .only_known = recolour->only_known,
+                          .report = recolour->is_strict ? note : NULL,
+                          .user = recolour};
+  recolour->work += (int64_t)unlit->width * unlit->height;
+  CS_TRY(read(recolour->context, original, unlit));
+  celspan_status status = cs_painting_recolour(recolour->context, &painting);
+  *is_changed = painting.is_changed;
   return status;
 }
 
-static celspan_status read_painting(cs_recolour *recolour, const cs_picture *picture,
-                                    cs_unlit *unlit, cs_painting *out) {
-  cs_original original;
-  CS_TRY(cs_original_open_picture(recolour->context, picture, &original));
-  celspan_status status = read(recolour->context, &original, unlit);
-  cs_original_close(recolour->context, &original);
-  CS_TRY(status);
-  *out =
-      (cs_painting){.swatches = &recolour->swatches,
-                    .width = unlit->width,
-                    .height = unlit->height,
-                    .rgba = unlit->paint,
-                    .within = original.info.is_float ? CS_PAINTING_WITHIN_HALF : CS_PAINTING_WITHIN,
-                    .only_known = recolour->only_known,
-                    .report = recolour->is_strict ? note : NULL,
-                    .user = recolour};
-  recolour->work += (int64_t)unlit->width * unlit->height;
-  return CELSPAN_OK;
-}
-
 /* *out: NULL where the picture stays. */
-static celspan_status make_painting(cs_recolour *recolour, const celspan_texture *texture,
+static celspan_status make_painting(cs_recolour *recolour, const cs_picture *picture,
                                     cs_picture **out) {
   celspan_context *context = recolour->context;
-  cs_unlit unlit;
-  cs_painting painting;
-  celspan_texture *made;
-  CS_TRY(read_painting(recolour, texture->variation->picture, &unlit, &painting));
-  celspan_status status = cs_painting_recolour(context, &painting);
-  if (status != CELSPAN_OK || !painting.is_changed) {
+  cs_original original;
+  cs_unlit unlit = {0};
+  celspan_texture *made = NULL;
+  bool is_changed = false;
+  CS_TRY(cs_original_open_picture(context, picture, &original));
+  celspan_status status =
+      cs_unlit_create(context, original.info.width, original.info.height, false, &unlit);
+  if (status == CELSPAN_OK)
+    status = change_pixels(recolour, &original, &unlit, &is_changed);
+  cs_original_close(context, &original);
+  if (status == CELSPAN_OK && is_changed)
+    status = cs_unlit_finish(context, &unlit, NULL, &made);
+  else
     cs_unlit_discard(context, &unlit);
-    return status;
-  }
-  CS_TRY(cs_unlit_finish(context, &unlit, NULL, &made));
-  *out = cs_picture_ref(made->variation->picture);
+  if (made)
+    *out = cs_picture_ref(made->variation->picture);
   celspan_texture_unref(made);
-  return CELSPAN_OK;
+  return status;
 }
 
 /* *out: borrowed; NULL where the picture stays. */
-static celspan_status painting_of(cs_recolour *recolour, const celspan_texture *texture,
+static celspan_status painting_of(cs_recolour *recolour, const cs_picture *picture,
                                   cs_picture **out) {
   celspan_context *context = recolour->context;
-  cs_hash hash = cs_picture_hash(texture->variation->picture);
+  cs_hash hash = cs_picture_hash(picture);
   size_t index = recolour->picture_count;
   if (!cs_hash_table_find(&recolour->indices, hash, &index)) {
     CS_TRY(CS_RESERVE(context, recolour->pictures, recolour->picture_capacity, index + 1));
     recolour->pictures[index] = NULL;
-    CS_TRY(make_painting(recolour, texture, &recolour->pictures[index]));
+    CS_TRY(make_painting(recolour, picture, &recolour->pictures[index]));
     recolour->picture_count++;
     CS_TRY(cs_hash_table_add(&recolour->indices, context, hash, index));
   }
@@ -154,17 +152,15 @@ static celspan_status painting_of(cs_recolour *recolour, const celspan_texture *
 static celspan_status change(cs_recolour *recolour, celspan_texture *copy, bool *is_changed) {
   const cs_texture_variation *variation = copy->variation;
   cs_picture *painting = NULL;
-  if (copy->kind != CS_TEXTURE_PICTURE) {
+  if (copy->kind != CS_TEXTURE_PICTURE)
     recolour_paints(recolour, copy, is_changed);
+  else if (variation->use == CELSPAN_PICTURE_PAINT && !variation->medium)
+    CS_TRY(painting_of(recolour, variation->picture, &painting));
+  if (!painting)
     return CELSPAN_OK;
-  }
-  if (variation->use == CELSPAN_PICTURE_PAINT && !variation->medium)
-    CS_TRY(painting_of(recolour, copy, &painting));
-  *is_changed = painting != NULL;
-  if (painting) {
-    cs_picture_unref(variation->picture);
-    cs_texture_own(copy)->picture = cs_picture_ref(painting);
-  }
+  *is_changed = true;
+  cs_picture_unref(variation->picture);
+  cs_texture_own(copy)->picture = cs_picture_ref(painting);
   return CELSPAN_OK;
 }
 

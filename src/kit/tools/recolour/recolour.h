@@ -49,7 +49,5 @@ CELSPAN_CHECKED celspan_status cs_recolour_texture(cs_recolour *recolour, celspa
                                                    celspan_texture **out);
 CELSPAN_CHECKED celspan_status cs_recolour_object(cs_recolour *recolour, celspan_object *object,
                                                   celspan_object **out);
-CELSPAN_CHECKED celspan_status cs_recolour_cel(cs_recolour *recolour, celspan_cel *cel,
-                                               celspan_cel **out);
 CELSPAN_CHECKED celspan_status cs_recolour_rostrum(cs_recolour *recolour, celspan_rostrum *rostrum,
                                                    celspan_rostrum **out);

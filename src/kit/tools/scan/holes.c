@@ -271,7 +271,7 @@ static celspan_status measure(const search *s, const laying *l, size_t h, float 
   const cs_blot *blot = &s->blots[l->of_hole[h]];
   const celspan_rectangle rim = around(s, l, hole, 1.2);
   patch p = {around(s, l, hole, 0.8), NULL};
-  size_t count = (size_t)p.box.width * (size_t)p.box.height;
+  size_t count = (size_t)p.box.width * (size_t)p.box.height + 1; /* the box may be empty */
   CS_TRY(CS_MAKE(s->page->context, p.away, count));
   fill_patch(s->page, &p, row);
   float inside = mean_at(s->page, (blot->x0 + blot->x1) / 2, (blot->y0 + blot->y1) / 2, 1);
