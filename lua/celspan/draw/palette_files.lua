@@ -28,6 +28,8 @@ local function rgb(r, g, b)
   return ("#%02x%02x%02x"):format(byte(r), byte(g), byte(b))
 end
 
+local function grey(g) return rgb(g, g, g) end
+
 local function cmyk(c, m, y, k)
   return rgb((1 - c) * (1 - k), (1 - m) * (1 - k), (1 - y) * (1 - k))
 end
@@ -77,7 +79,7 @@ end
 
 --- How Krita's elements become colours; each has the names of its numbers.
 local krita = { sRGB = { rgb, "r", "g", "b" }, RGB = { rgb, "r", "g", "b" },
-                Gray = { function(g) return rgb(g, g, g) end, "g" },
+                Gray = { grey, "g" },
                 CMYK = { cmyk, "c", "m", "y", "k" } }
 
 local function krita_colour(name, kind, text)
@@ -110,20 +112,15 @@ end
 
 --- The words of a style: bare ones, and others in quotes, with a backslash before marks.
 local function toonz_words(text)
-  local words, at = {}, 1
-  while true do
-    at = text:find("%S", at)
-    if not at then return words end
-    local last = text:sub(at, at) == '"' and at
-    while last do
-      last = text:find('["\\]', last + 1) or fail "a name of a style does not end"
-      if text:sub(last, last) == '"' then break end
-      last = last + 1
-    end
-    local word = last and text:sub(at + 1, last - 1):gsub("\\(.)", "%1")
-    words[#words + 1] = word and unescape(word) or text:match("%S+", at)
-    at = last and last + 1 or text:find("%s", at) or #text + 1
+  text = text:gsub("\\(.)", function(mark) return ("&#%d;"):format(mark:byte()) end)
+  local words, at = {}, text:match "^%s*()"
+  while at <= #text do
+    local quoted, after = text:match('^"([^"]*)"%s*()', at)
+    if not quoted then quoted, after = text:match('^([^"%s]%S*)%s*()', at) end
+    if not quoted then fail "a name of a style does not end" end
+    words[#words + 1], at = unescape(quoted), after
   end
+  return words
 end
 
 local FLAT = "3" -- the number of a style of one colour; textures and others are left out
@@ -178,30 +175,16 @@ local function reader(text)
   end
 end
 
---- The text of UTF-16, the greater byte first, up to its zero.
+--- The text of UTF-16, the greater byte first, up to its zero: JSON has its units, too.
 local function utf16(bytes)
-  local points, high = {}, nil
-  for i = 1, #bytes - 1, 2 do
-    local unit = (">I2"):unpack(bytes, i)
-    if unit == 0 then break end
-    if high and unit >= 0xdc00 and unit < 0xe000 then
-      unit, high = 0x10000 + (high - 0xd800) * 1024 + unit - 0xdc00, nil
-    end
-    if unit >= 0xd800 and unit < 0xdc00 then
-      high = unit
-    else
-      points[#points + 1] = unit >= 0xd800 and unit < 0xe000 and "?" or utf8.char(unit)
-    end
-  end
-  return table.concat(points)
+  local units = bytes:gsub("(.)(.)", function(high, low)
+    return ("\\u%02x%02x"):format(high:byte(), low:byte())
+  end)
+  return json.decode('"' .. (units:match "^(.-)\\u0000" or units) .. '"')
 end
 
-local adobe = {
-  ["RGB "] = { ">fff", rgb },
-  CMYK = { ">ffff", cmyk },
-  ["LAB "] = { ">fff", function(l, a, b) return lab(100 * l, a, b) end },
-  Gray = { ">f", function(g) return rgb(g, g, g) end },
-}
+local adobe = { ["RGB "] = { ">fff", rgb }, CMYK = { ">ffff", cmyk }, Gray = { ">f", grey },
+  ["LAB "] = { ">fff", function(l, a, b) return lab(100 * l, a, b) end } }
 local COLOUR = 1 -- the kind of a block; others begin and end groups
 
 local function read_ase(text, add)
@@ -220,19 +203,22 @@ local function read_ase(text, add)
   end
 end
 
+--- A space of colours: how its numbers are stored, by what they are divided, and their function.
+local function space(format, scale, make)
+  return function(bytes)
+    local numbers = { format:unpack(bytes) }
+    for i, number in ipairs(numbers) do numbers[i] = number / scale end
+    return make(table.unpack(numbers))
+  end
+end
+
 --- The spaces of Photoshop's swatches, by their numbers.
-local swatches = {
-  [0] = function(r, g, b) return rgb(r / 65535, g / 65535, b / 65535) end,
-  [2] = function(c, m, y, k)
-    return cmyk(1 - c / 65535, 1 - m / 65535, 1 - y / 65535, 1 - k / 65535)
-  end,
-  [7] = function(l, a, b)
-    local function signed(x) return (x >= 32768 and x - 65536 or x) / 100 end
-    return lab(l / 100, signed(a), signed(b))
-  end,
-  [8] = function(g) return rgb(1 - g / 10000, 1 - g / 10000, 1 - g / 10000) end,
-  [9] = function(c, m, y, k) return cmyk(c / 10000, m / 10000, y / 10000, k / 10000) end,
-}
+local swatches = { [0] = space(">I2I2I2", 65535, rgb), [7] = space(">I2i2i2", 100, lab),
+  [2] = space(">I2I2I2I2", 65535, function(c, m, y, k)
+    return cmyk(1 - c, 1 - m, 1 - y, 1 - k)
+  end),
+  [8] = space(">I2", 10000, function(g) return grey(1 - g) end),
+  [9] = space(">I2I2I2I2", 10000, cmyk) }
 
 --- Two lists of the same colours: the second one, which old files do not have, has names.
 local function read_aco(text, add)
@@ -244,12 +230,12 @@ local function read_aco(text, add)
   end
   if version ~= 1 and version ~= 2 then fail "it is no file of swatches of version 1 or 2" end
   for i = 1, count do
-    local space, a, b, c, d = take ">I2I2I2I2I2"
+    local number, bytes = take ">I2c8"
     local length = version == 2 and 2 * take ">I4" or 0
     local name = utf16(take("c" .. length, length))
-    local make = swatches[space]
-    if not make then fail("colour %d, '%s', has the unknown space %d", i, name, space) end
-    add(name, make(a, b, c, d))
+    local make = swatches[number]
+      or fail("colour %d, '%s', has the unknown space %d", i, name, number)
+    add(name, make(bytes))
   end
 end
 

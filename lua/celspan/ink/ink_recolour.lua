@@ -21,37 +21,35 @@ local function light_of(name, value)
   return paint.pigment
 end
 
---- The pairs of two palettes with the same names: { name, old, new }.
-local function by_names(from, to)
-  local pairs_of = {}
-  for name, old in next, from do
-    if to[name] == nil then
-      native.refuse(("ink: recolour: only the first palette has '%s'"):format(fields.key(name)))
-    end
-    pairs_of[#pairs_of + 1] = { fields.key(name), old, to[name] }
-  end
-  for name in next, to do
-    if from[name] == nil then
-      native.refuse(("ink: recolour: only the second palette has '%s'"):format(fields.key(name)))
+--- Refuses names of a palette that another one does not have.
+local function must_share(which, names, other)
+  for name in next, names do
+    if other[name] == nil then
+      native.refuse(("ink: recolour: only the %s palette has '%s'"):format(which,
+        fields.key(name)))
     end
   end
-  return pairs_of
 end
 
-local function by_colours(map)
-  local pairs_of = {}
-  for old, new in next, map do pairs_of[#pairs_of + 1] = { fields.key(old), old, new } end
-  return pairs_of
+--- What becomes of each colour: { name, old, new }. to: nil if `from` has new colours by old ones.
+local function pairs_of(from, to)
+  local list = {}
+  must_share("first", to and from or {}, to)
+  must_share("second", to or {}, from)
+  for key, value in next, from do
+    list[#list + 1] = { fields.key(key), to and value or key, to and to[key] or value }
+  end
+  if #list == 0 then native.refuse "ink: recolour: there are no colours" end
+  table.sort(list, function(a, b) return a[1] < b[1] end)
+  return list
 end
 
 --- The lights of old and of new colours as two lists. A colour may be twice if it becomes the same.
-local function lists_of(pairs_of)
-  if #pairs_of == 0 then native.refuse "ink: recolour: there are no colours" end
-  table.sort(pairs_of, function(a, b) return a[1] < b[1] end)
+local function lists_of(changes)
   local from, to, seen = {}, {}, {}
-  for _, pair in ipairs(pairs_of) do
-    local name = ("'%s'"):format(pair[1])
-    local old, new = light_of(name, pair[2]), light_of("the new colour of " .. name, pair[3])
+  for _, change in ipairs(changes) do
+    local name = ("'%s'"):format(change[1])
+    local old, new = light_of(name, change[2]), light_of("the new colour of " .. name, change[3])
     local key, value = table.concat(old, " "), table.concat(new, " ")
     local other = seen[key]
     if other and other[2] ~= value then
@@ -153,7 +151,7 @@ function ink.recolour(value, from, to, options)
     "ink: recolour takes two palettes, or a table of new colours by old ones")
   options = fields.check("ink: recolour", options or {}, known)
   fields.space("ink: recolour", options.space)
-  local old, new = lists_of(to and by_names(from, to) or by_colours(from))
+  local old, new = lists_of(pairs_of(from, to))
   local recolouring = native.recolouring(old, new, options.space == "linear", options.strict)
   local made = change(value, recolouring)
   fields.expect_kind(made ~= nil, value, "ink: recolour takes objects, cels, rostrums, pictures, "

@@ -329,7 +329,7 @@ describe("recolouring", function()
     assert.equal(1, #strange)
   end)
 
-  it("mixes light where it is told to", function()
+  it("mixes light in the linear space", function()
     local function art(c, d)
       return celspan.film { size = { 60, 60 }, frame = function()
         return celspan.rostrum { celspan.cel { celspan.rect { 0, 0, 60, 60, texture = c },

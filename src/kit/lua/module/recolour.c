@@ -52,19 +52,18 @@ int cs_recolour_make(lua_State *L) {
   return 1;
 }
 
-static void recolour_object(lua_State *L, cs_recolour *recolour, cs_userdata *from) {
+/* Pushes an object or a texture in the new colours. */
+static void push_recoloured(lua_State *L, cs_recolour *recolour, cs_userdata *from,
+                            bool is_object) {
   celspan_object *object = NULL;
-  cs_userdata *value = cs_bare_push(L, &noun_object);
-  memcpy(cs_userdata_own(value), cs_userdata_own(from), noun_object.kind->own_size);
-  cs_host_try(L, "recolour", cs_recolour_object(recolour, from->handle, &object));
-  value->handle = object;
-}
-
-static void recolour_texture(lua_State *L, cs_recolour *recolour, cs_userdata *from) {
   celspan_texture *texture = NULL;
-  cs_userdata *value = cs_bare_push(L, &noun_texture);
-  cs_host_try(L, "recolour", cs_recolour_texture(recolour, from->handle, &texture));
-  value->handle = texture;
+  cs_userdata *value = cs_bare_push(L, is_object ? &noun_object : &noun_texture);
+  if (is_object)
+    memcpy(cs_userdata_own(value), cs_userdata_own(from), noun_object.kind->own_size);
+  cs_host_try(L, "recolour",
+              is_object ? cs_recolour_object(recolour, from->handle, &object)
+                        : cs_recolour_texture(recolour, from->handle, &texture));
+  value->handle = is_object ? (void *)object : (void *)texture;
 }
 
 int cs_recolour_see(lua_State *L) {
@@ -85,12 +84,9 @@ int cs_recolour_value(lua_State *L) {
   cs_userdata *texture = cs_userdata_test(L, 2, &cs_kind_texture);
   recolour->work = 0;
   recolour->object = NULL;
-  if (object)
-    recolour_object(L, recolour, object);
-  else if (texture)
-    recolour_texture(L, recolour, texture);
-  else
-    lua_pushnil(L);
+  if (!object && !texture)
+    return 0;
+  push_recoloured(L, recolour, object ? object : texture, object != NULL);
   cs_host_charge(L, STEPS_A_PIXEL * (uint64_t)recolour->work);
   return 1;
 }
