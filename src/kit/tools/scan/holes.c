@@ -192,12 +192,6 @@ static void try_pair(const search *s, const size_t hole[2], const size_t blot[2]
 
 /* ---------------------------------------------------------------- the middle of a hole */
 
-/* Some pixels, and how far each is from the paper. */
-typedef struct patch {
-  celspan_rectangle box;
-  float *away;
-} patch;
-
 /* The pixels around a hole that is laid so, as far from the border as the squares of `away`
  * need. */
 static celspan_rectangle around(const search *s, const laying *l, const cs_hole *hole,
@@ -212,104 +206,91 @@ static celspan_rectangle around(const search *s, const laying *l, const cs_hole 
                              (int32_t)cs_number_clamp(at.y + y, side, bottom) - y0};
 }
 
-/* The mean of a square, in which grain is little and the middle of a hole stays where it is. */
-static float square_at(const cs_rough *page, int32_t x, int32_t y) {
+/* How far a pixel differs from the paper, which is the way of the hole: the mean of a square, in
+ * which grain is little and the middle of a hole stays where it is. */
+static double away_at(const cs_rough *page, const float *field, int32_t x, int32_t y) {
   const int32_t side = page->side;
   float sum = 0;
   for (int32_t v = y - side; v <= y + side; v++)
     for (int32_t u = x - side; u <= x + side; u++)
       sum += cs_rough_brightness(cs_scan_at(&page->scan, u, v));
-  return sum / (float)((2 * side + 1) * (2 * side + 1));
-}
-
-/* row: as wide as the page. */
-static void fill_patch(const cs_rough *page, patch *p, float *row) {
-  float *away = p->away;
-  for (int32_t y = p->box.y; y < p->box.y + p->box.height; y++) {
-    cs_rough_field(page, y, row);
-    for (int32_t x = p->box.x; x < p->box.x + p->box.width; x++)
-      *away++ = square_at(page, x, y) / row[x] - 1;
-  }
+  return (double)(sum / ((float)((2 * side + 1) * (2 * side + 1)) * field[x]) - 1);
 }
 
 /* What a hole covers: a pixel counts from a quarter of the way between paper and hole on, and fully
  * from three quarters on. */
-typedef struct covered {
-  celspan_point middle;
-  double area;
-  bool is_sure; /* the grain around it is much less than its difference from the paper */
-} covered;
+typedef struct cover {
+  double sum, squares;      /* of the way to a hole, bright or dark */
+  double area, x, y;        /* what is covered, and the sums of its places */
+  double rest, mean, grain; /* the pixels that are not, and the sums of their way and its squares */
+} cover;
 
-/* sign: of the way from the paper to the hole. */
-static covered cover(const patch *p, float sign) {
-  const celspan_rectangle *box = &p->box;
-  double sum = 0, squares = 0, x = 0, y = 0, area = 0, rest = 0, mean = 0, grain = 0;
-  for (int32_t i = 0; i < box->width * box->height; i++) {
-    double way = (double)cs_number_clampf(p->away[i] * sign, 0, 1);
-    sum += way;
-    squares += way * way;
-  }
-  for (int32_t i = 0; i < box->width * box->height && sum > 0; i++) {
-    double away = (double)p->away[i] * sum / squares;
-    double share = cs_number_clamp(2 * fabs(away) - 0.5, 0, 1);
-    area += share;
-    x += share * (box->x + i % box->width + 0.5);
-    y += share * (box->y + i / box->width + 0.5);
-    rest += share < 0.5;
-    mean += share < 0.5 ? away : 0;
-    grain += share < 0.5 ? away * away : 0;
-  }
-  bool is_sure = grain * rest - mean * mean < MOST_GRAIN * MOST_GRAIN * rest * rest;
-  return (covered){{x / area, y / area}, area, area > 0 && is_sure};
+static void add_way(cover *c, double way) {
+  c->sum += way > 0 ? way : 0;
+  c->squares += way > 0 ? way * way : 0;
 }
 
-/* The middle of hole h, which the page keeps with some rim, in pixels. *found: whether it covers
- * what it should. row: as wide as the page. */
-static celspan_status measure(const search *s, const laying *l, size_t h, float *row,
-                              celspan_point *out, int32_t *found) {
+static void add_cover(cover *c, double way, double x, double y) {
+  double share = cs_number_clamp(2 * fabs(way) - 0.5, 0, 1);
+  c->area += share;
+  c->x += share * x;
+  c->y += share * y;
+  c->rest += share < 0.5;
+  c->mean += share < 0.5 ? way : 0;
+  c->grain += share < 0.5 ? way * way : 0;
+}
+
+static cover cover_of(const cs_rough *page, const celspan_rectangle *box, double sign) {
+  cover c = {0};
+  for (int pass = 0; pass < 2; pass++)
+    for (int32_t y = box->y; y < box->y + box->height; y++) {
+      const float *field = cs_rough_field(page, y);
+      for (int32_t x = box->x; x < box->x + box->width; x++) {
+        double way = sign * away_at(page, field, x, y);
+        if (pass == 0)
+          add_way(&c, way);
+        else if (c.sum > 0)
+          add_cover(&c, way * c.sum / c.squares, x + 0.5, y + 0.5);
+      }
+    }
+  return c;
+}
+
+/* The middle of hole h, which the page keeps with some rim, in pixels. Returns whether it covers
+ * what it should, and is told from the grain around it. */
+static bool measure(const search *s, const laying *l, size_t h, celspan_point *out) {
   const cs_hole *hole = &s->holes[h];
   const cs_blot *blot = &s->blots[l->of_hole[h]];
-  const celspan_rectangle rim = around(s, l, hole, 1.2);
-  patch p = {around(s, l, hole, 0.8), NULL};
-  size_t count = (size_t)p.box.width * (size_t)p.box.height + 1; /* the box may be empty */
-  CS_TRY(CS_MAKE(s->page->context, p.away, count));
-  fill_patch(s->page, &p, row);
+  const celspan_rectangle box = around(s, l, hole, 0.8), rim = around(s, l, hole, 1.2);
   float inside = mean_at(s->page, (blot->x0 + blot->x1) / 2, (blot->y0 + blot->y1) / 2, 1);
-  const covered c = cover(&p, inside > 1 ? 1 : -1);
+  const cover c = cover_of(s->page, &box, inside > 1 ? 1 : -1);
   double area = (l->re * l->re + l->im * l->im) * hole->width * hole->height;
   area *= hole->width == hole->height ? 0.7854 : 1;
-  if (c.is_sure && fabs(c.area / area - 1) < MOST_OFF) {
-    *out = c.middle;
-    ++*found;
-  }
   s->page->holes[h] = (celspan_box){rim.x, rim.y, rim.width, rim.height};
-  cs_mem_free(s->page->context->memory, p.away, count * sizeof *p.away);
-  return CELSPAN_OK;
+  if (fabs(c.area / area - 1) > MOST_OFF ||
+      c.grain * c.rest - c.mean * c.mean > MOST_GRAIN * MOST_GRAIN * c.rest * c.rest)
+    return false;
+  *out = (celspan_point){c.x / c.area, c.y / c.area};
+  return true;
 }
 
 /* Twice, because the pixels around a hole are better known after the first time. */
-static celspan_status measure_all(const search *s, laying *l, cs_pegs *out) {
+static void measure_all(const search *s, laying *l, cs_pegs *out) {
   celspan_point at[CS_ROUGH_HOLES];
-  celspan_context *context = s->page->context;
-  celspan_status status = CELSPAN_OK;
-  float *row;
   for (size_t h = 0; h < s->hole_count; h++)
     at[h] = middle_of(s, l->of_hole[h]);
-  CS_TRY(CS_MAKE(context, row, (size_t)s->page->scan.width));
   for (int pass = 0; pass < 2; pass++) {
     fit(s->holes, at, s->hole_count, l);
     out->found = 0;
-    for (size_t h = 0; h < s->hole_count && status == CELSPAN_OK; h++)
-      status = measure(s, l, h, row, &at[h], &out->found);
+    for (size_t h = 0; h < s->hole_count; h++)
+      out->found += measure(s, l, h, &at[h]);
   }
-  cs_mem_free(context->memory, row, (size_t)s->page->scan.width * sizeof *row);
   fit(s->holes, at, s->hole_count, l);
   for (size_t h = 0; h < s->hole_count; h++) {
     celspan_point place = laid(l, &s->holes[h]);
     double off = cs_number_length(place.x - at[h].x, place.y - at[h].y) / s->unit;
     out->error = cs_number_most(out->error, off);
   }
-  return status;
 }
 
 celspan_status cs_holes_find(cs_rough *page, double dpi, const cs_hole *holes, size_t count,
@@ -328,7 +309,7 @@ celspan_status cs_holes_find(cs_rough *page, double dpi, const cs_hole *holes, s
   *out = (cs_pegs){.found = best.found};
   if (best.found < (int32_t)count)
     return CELSPAN_OK;
-  CS_TRY(measure_all(&s, &best, out));
+  measure_all(&s, &best, out);
   page->hole_count = count;
   out->scale = cs_number_length(best.re, best.im) / s.unit;
   out->turn = cs_elementary_atan2(best.im, best.re);

@@ -21,7 +21,6 @@ typedef struct making {
   const cs_inks_desc *desc;
   size_t width, pixels; /* of the scan */
   float middle, white;  /* of the shares of the field: the paper's, and where ink begins */
-  float *field;         /* of a row */
   uint8_t *dark;        /* the page: 0 paper .. 255 */
   uint8_t *ink;         /* the page: the number of the ink; NULL: there is one */
   cs_inks *out;
@@ -32,9 +31,9 @@ typedef struct making {
 static void count_row(const making *m, int32_t y, uint32_t counts[SHADES]) {
   int32_t first, end;
   cs_rough_row(m->page, y, RIM, &first, &end);
-  cs_rough_field(m->page, y, m->field);
+  const float *field = cs_rough_field(m->page, y);
   for (int32_t x = first; x < end; x++) {
-    float share = cs_rough_brightness(cs_scan_at(&m->page->scan, x, y)) / m->field[x];
+    float share = cs_rough_brightness(cs_scan_at(&m->page->scan, x, y)) / field[x];
     counts[share < (float)SHADES / FULL ? (int)(share * FULL) : SHADES - 1]++;
   }
 }
@@ -74,9 +73,9 @@ static void darken_row(const making *m, int32_t y) {
   float foot = (m->middle - m->white) * m->page->paper;
   uint8_t *dark = m->dark + (size_t)y * m->width;
   cs_rough_row(m->page, y, RIM, &first, &end);
-  cs_rough_field(m->page, y, m->field);
+  const float *field = cs_rough_field(m->page, y);
   for (int32_t x = first; x < end; x++) {
-    float white = m->middle * m->field[x] - foot;
+    float white = m->middle * field[x] - foot;
     float bright = cs_rough_brightness(cs_scan_at(&m->page->scan, x, y));
     if (bright < white)
       dark[x] = (uint8_t)((1 - bright / white) * 254.5f + 0.5f);
@@ -130,7 +129,7 @@ static void list_ways(const making *m, cs_oklab *ways) {
 
 /* By the mean of the 3 x 3 pixels that are drawn: the dark ones count most, and have the purest
  * hue. */
-static cs_oklab way_at(const making *m, int32_t x, int32_t y) {
+static cs_oklab way_at(const making *m, float field, int32_t x, int32_t y) {
   const cs_rough *page = m->page;
   uint32_t sum[3] = {0}, count = 0;
   float code[3];
@@ -143,19 +142,19 @@ static cs_oklab way_at(const making *m, int32_t x, int32_t y) {
       count += 255;
     }
   for (int c = 0; c < 3; c++)
-    code[c] = (float)sum[c] * page->paper / ((float)count * page->code[c] * m->field[x]);
+    code[c] = (float)sum[c] * page->paper / ((float)count * page->code[c] * field);
   return way_to(m, code);
 }
 
 /* The ink whose way from the paper is most like that of a pixel. */
 static void part_row(const making *m, const cs_oklab *ways, int32_t y) {
   const size_t row = (size_t)y * m->width;
-  cs_rough_field(m->page, y, m->field);
+  const float *field = cs_rough_field(m->page, y);
   for (size_t x = 0; x < m->width; x++) {
     float most = -2;
     if (m->dark[row + x] == 0)
       continue;
-    const cs_oklab to = way_at(m, (int32_t)x, y);
+    const cs_oklab to = way_at(m, field[x], (int32_t)x, y);
     for (size_t i = 0; i < m->desc->count; i++) {
       float dot = ways[i].L * to.L + ways[i].a * to.a + ways[i].b * to.b;
       if (dot <= most)
@@ -212,7 +211,6 @@ static celspan_status make(making *m) {
   celspan_context *context = m->page->context;
   const int32_t height = m->page->scan.height;
   cs_oklab ways[CS_INKS_MOST];
-  CS_TRY(CS_MAKE(context, m->field, m->width));
   CS_TRY(CS_MAKE(context, m->dark, m->pixels));
   find_tones(m);
   for (int32_t y = 0; y < height; y++)
@@ -240,7 +238,6 @@ celspan_status cs_inks_make(const cs_rough *page, const cs_inks_desc *desc, cs_i
               .pixels = width * (size_t)page->scan.height};
   *out = (cs_inks){0};
   celspan_status status = make(&m);
-  cs_mem_free(memory, m.field, width * sizeof *m.field);
   cs_mem_free(memory, m.dark, m.pixels);
   cs_mem_free(memory, m.ink, m.pixels);
   return status;

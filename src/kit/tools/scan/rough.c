@@ -7,9 +7,9 @@
 #include "inside/number.h"
 #include "inside/sort.h"
 
-/* SPOTS along the longer side: of A4 a spot is a third of a millimetre. POST: spots of a side. FEW:
- * an edge takes more than one line in this many. */
-enum { SPOTS = 900, POST = 8, PAD = CS_ROUGH_PAD, FEW = 40 };
+/* About SPOTS along the longer side, fewer than LINES: of A4 a spot is a third of a millimetre.
+ * POST: spots of a side. FEW: an edge takes more than one line in this many. */
+enum { SPOTS = 900, LINES = 2 * SPOTS, POST = 8, PAD = CS_ROUGH_PAD, FEW = 40 };
 /* Less of the paper's brightness is what lies behind the paper. */
 #define BEHIND 0.4f
 #define NONE (-1.0f)
@@ -82,53 +82,44 @@ static float paper_from(const cs_rough *page, int side, int32_t i) {
   return 0;
 }
 
-/* The line through most of the places at[i] of the lines[i], by medians, so that what is drawn
- * across the edge and the ends of the other edges do not count. Returns whether the places agree on
- * it. In spots. rest: as much room. */
-static bool fit_edge(const float *lines, const float *at, size_t count, float *rest,
-                     double line[2]) {
-  size_t half = count / 2, near = 0;
+/* Where the paper begins: `count` places, each in the middle of a line. rest: as much room. */
+typedef struct places {
+  size_t count;
+  float lines[LINES], at[LINES], rest[LINES];
+} places;
+
+/* The line through most of the places, by medians, so that what is drawn across the edge and the
+ * ends of the other edges do not count. Returns whether the places agree on it. In spots. */
+static bool fit_edge(places *p, double line[2]) {
+  size_t half = p->count / 2, near = 0;
   for (size_t i = 0; i < half; i++)
-    rest[i] = (at[i + half] - at[i]) / (lines[i + half] - lines[i]);
-  line[1] = (double)sorted_at(rest, half, 0.5);
-  for (size_t i = 0; i < count; i++)
-    rest[i] = at[i] - (float)line[1] * lines[i];
-  double middle = (double)sorted_at(rest, count, 0.5), sum = 0;
-  for (size_t i = 0; i < count; i++)
-    if (fabs((double)rest[i] - middle) <= 1) {
-      sum += (double)rest[i];
+    p->rest[i] = (p->at[i + half] - p->at[i]) / (p->lines[i + half] - p->lines[i]);
+  line[1] = (double)sorted_at(p->rest, half, 0.5);
+  for (size_t i = 0; i < p->count; i++)
+    p->rest[i] = p->at[i] - (float)line[1] * p->lines[i];
+  double middle = (double)sorted_at(p->rest, p->count, 0.5), sum = 0;
+  for (size_t i = 0; i < p->count; i++)
+    if (fabs((double)p->rest[i] - middle) <= 1) {
+      sum += (double)p->rest[i];
       near++;
     }
   line[0] = sum / (double)near;
-  return 2 * near > count;
+  return 2 * near > p->count;
 }
 
-/* Where only a few lines begin later than at the side, they are drawn there. numbers: three for
- * each line. */
-static void find_edge(cs_rough *page, int side, float *numbers) {
-  size_t lines = (size_t)(side % 2 == 0 ? page->height : page->width), count = 0;
-  float *at = numbers + lines;
-  double line[2];
-  for (size_t i = 0; i < lines; i++) {
-    at[count] = paper_from(page, side, (int32_t)i);
-    numbers[count] = (float)i + 0.5f;
-    count += at[count] > 0;
+/* Where only a few lines begin later than at the side, they are drawn there. */
+static void find_edge(cs_rough *page, int side) {
+  int32_t lines = side % 2 == 0 ? page->height : page->width;
+  places p = {0};
+  for (int32_t i = 0; i < lines; i++) {
+    p.at[p.count] = paper_from(page, side, i);
+    p.lines[p.count] = (float)i + 0.5f;
+    p.count += p.at[p.count] > 0;
   }
-  if (count <= lines / FEW || count < 2 || !fit_edge(numbers, at, count, at + lines, line))
-    return;
-  page->has_edge[side] = true;
-  page->edges[side][0] = line[0] * page->side;
-  page->edges[side][1] = line[1];
-}
-
-static celspan_status find_edges(cs_rough *page) {
-  size_t room = 3 * (size_t)(page->width > page->height ? page->width : page->height);
-  float *numbers;
-  CS_TRY(CS_MAKE(page->context, numbers, room));
-  for (int side = 0; side < 4; side++)
-    find_edge(page, side, numbers);
-  cs_mem_free(page->context->memory, numbers, room * sizeof *numbers);
-  return CELSPAN_OK;
+  double *edge = page->edges[side];
+  page->has_edge[side] = (int32_t)p.count > lines / FEW && p.count > 1 && fit_edge(&p, edge);
+  edge[0] = page->has_edge[side] ? edge[0] * page->side : 0;
+  edge[1] = page->has_edge[side] ? edge[1] : 0;
 }
 
 /* The middle is where the lines between opposite sides meet. */
@@ -250,7 +241,7 @@ static float post_at(const cs_rough *page, int32_t y, int32_t at) {
   return upper[0] + (place - (float)(int32_t)place) * (upper[page->across] - upper[0]);
 }
 
-void cs_rough_field(const cs_rough *page, int32_t y, float *row) {
+const float *cs_rough_field(const cs_rough *page, int32_t y) {
   const int32_t post = page->side * POST;
   const float step = 1.0f / (float)post;
   for (int32_t at = PAD - 1, x = -(post / 2); x < page->scan.width; at++, x += post) {
@@ -258,25 +249,22 @@ void cs_rough_field(const cs_rough *page, int32_t y, float *row) {
     int32_t first = x > 0 ? x : 0;
     int32_t end = x + post < page->scan.width ? x + post : page->scan.width;
     for (int32_t i = first; i < end; i++)
-      row[i] = before + slope * ((float)(i - x) + 0.5f);
+      page->row[i] = before + slope * ((float)(i - x) + 0.5f);
   }
+  return page->row;
 }
 
 /* ---------------------------------------------------------------- a page */
 
-static celspan_status share_spots(cs_rough *page) {
-  float *field;
-  CS_TRY(CS_MAKE(page->context, field, (size_t)page->scan.width));
+static void share_spots(cs_rough *page) {
   for (int32_t y = 0; y < page->height; y++) {
     float *spots = page->spots + (size_t)y * (size_t)page->width;
+    const float *field = cs_rough_field(page, y * page->side + page->side / 2);
     int32_t first, end;
     spots_of(page, y, &first, &end);
-    cs_rough_field(page, y * page->side + page->side / 2, field);
     for (int32_t x = 0; x < page->width; x++)
       spots[x] = x >= first && x < end ? spots[x] / field[x * page->side + page->side / 2] : 1;
   }
-  cs_mem_free(page->context->memory, field, (size_t)page->scan.width * sizeof *field);
-  return CELSPAN_OK;
 }
 
 static celspan_status fill(cs_rough *page, const cs_picture *picture) {
@@ -292,12 +280,15 @@ static celspan_status fill(cs_rough *page, const cs_picture *picture) {
                    "%s: %d x %d pixels are too few for a scanned drawing", cs_picture_name(picture),
                    wide, high);
   CS_TRY(CS_MAKE(page->context, page->spots, (size_t)page->width * (size_t)page->height));
+  CS_TRY(CS_MAKE(page->context, page->row, (size_t)wide));
   for (int32_t y = 0; y < page->height; y++)
     fill_row(page, y);
   measure_paper(page);
-  CS_TRY(find_edges(page));
+  for (int side = 0; side < 4; side++)
+    find_edge(page, side);
   CS_TRY(make_field(page));
-  return share_spots(page);
+  share_spots(page);
+  return CELSPAN_OK;
 }
 
 celspan_status cs_rough_create(celspan_context *context, const cs_picture *picture,
@@ -318,5 +309,6 @@ void cs_rough_destroy(cs_rough *page) {
   cs_mem_free(memory, page->spots,
               (size_t)page->width * (size_t)page->height * sizeof *page->spots);
   cs_mem_free(memory, page->field, (size_t)page->across * (size_t)page->down * sizeof *page->field);
+  cs_mem_free(memory, page->row, (size_t)page->scan.width * sizeof *page->row);
   cs_mem_free(memory, page, sizeof *page);
 }

@@ -30,7 +30,7 @@ typedef struct cs_rough {
   double edges[4][2];
   bool has_edge[4];                  /* the paper ends inside of the picture */
   int32_t across, down;              /* posts of the field, with the pads */
-  float *field;                      /* row-major */
+  float *field, *row;                /* row-major; scratch for cs_rough_field */
   celspan_box holes[CS_ROUGH_HOLES]; /* in pixels: what was found of holes.h */
   size_t hole_count;
 } cs_rough;
@@ -52,7 +52,7 @@ CELSPAN_CHECKED celspan_status cs_rough_create(celspan_context *context, const c
 void cs_rough_destroy(cs_rough *page); /* NULL is ignored */
 /* The columns first .. end - 1 of row y that lie on the paper, `margin` spots from its ends. */
 void cs_rough_row(const cs_rough *page, int32_t y, double margin, int32_t *first, int32_t *end);
-/* The field at the middles of the pixels of row y: as many numbers as the picture is wide. */
-void cs_rough_field(const cs_rough *page, int32_t y, float *row);
+/* The field at the middles of the pixels of row y, until the next call. */
+const float *cs_rough_field(const cs_rough *page, int32_t y);
 /* False if a side of the paper is not in the picture. */
 bool cs_rough_paper(const cs_rough *page, cs_rough_place *out);
