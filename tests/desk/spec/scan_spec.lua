@@ -51,6 +51,15 @@ describe("registering", function()
     assert.is_true(scans.error_of(assert(scanned("white.#.png", { dpi = DPI }))[1], scan) < 0.1)
   end)
 
+  it("says that holes are hidden by grain, in front of white", function()
+    for i, seed in ipairs { 64, 139 } do -- they would be laid off by a pixel and more
+      scans.write(("%s/grainy.%d.png"):format(folder, i), scans.any(seed, DPI))
+      local drawings, message = scanned("grainy.#.png", { dpi = DPI, frames = tostring(i) })
+      assert.is_nil(drawings)
+      assert.matches("of the 3 peg holes were found: .* scan the whole sheet on black", message)
+    end
+  end)
+
   it("lays given holes where they are on the paper, and reads the dpi of a file", function()
     local scan = write("own.1.tif", { turn = -3, shift = { 4, -2 }, grey = true })
     local y = 24 - 105

@@ -105,7 +105,7 @@ static void add(search *s, const cs_swatch *colour) {
 }
 
 /* Adds the pixels around, the nearest first, until those of one distance explain the colour: those
- * of the table, or else those of areas with colours that stay. A pixel with alpha may be a colour
+ * of the table, or the areas with colours that stay. A pixel with alpha may be a colour
  * of the table alone. */
 static void visit(search *s, bool is_strange) {
   const cs_painting *painting = s->painting;
