@@ -8,16 +8,16 @@
 -- The columns: event, reel, channels, kind of the transition and its frames, and codes of the
 -- source and of the film, from and to. A dissolve has two lines: the first source continues during
 -- its frames. Codes have no rate: it is that of the films.
-local edit_values = require "celspan.edit_values"
 local json = require "celspan.json"
 local timecode = require "celspan.timecode"
+local values = require "celspan.values"
 
 local edit_edl = {}
 
 local CHANNELS = { "A", "A2" } -- of the tracks of sounds
 local FASTEST = 100 -- times the speed of the source
 
-local fail, skip = edit_values.fail, edit_values.skip
+local fail, skip = values.fail, values.skip
 
 --- The codes of a second at a rate; second, those left out in a minute with drop frames, or nil.
 local function codes_at(fps)

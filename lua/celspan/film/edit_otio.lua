@@ -7,16 +7,16 @@
 --
 -- Times are numbers of frames at a rate. A time at another rate than that of the edit, which is the
 -- first one of its pictures, is exact until it is rounded to a frame.
-local edit_values = require "celspan.edit_values"
 local json = require "celspan.json"
 local timecode = require "celspan.timecode"
+local values = require "celspan.values"
 
 local edit_otio = {}
 
 local MOST_TIME, MOST_RATE = 1e12, 1e6
 
-local fail, skip, number_of = edit_values.fail, edit_values.skip, edit_values.number_of
-local table_of, text_of = edit_values.table_of, edit_values.text_of
+local fail, skip, number_of = values.fail, values.skip, values.number
+local table_of, text_of = values.table, values.text
 
 -- ---------------------------------------------------------------- writing
 
@@ -120,8 +120,8 @@ end
 --- A time in frames of the edit, not rounded.
 local function frames_of(state, value, what, least)
   if schema_of(value) ~= "RationalTime" then fail("%s is no RationalTime", what) end
-  local number = number_of(value.value, what, least or -MOST_TIME, MOST_TIME)
-  local own = timecode.rate(number_of(value.rate, what .. ": rate", 1e-6, MOST_RATE))
+  local number = number_of(value, what .. ": ", "value", least or -MOST_TIME, MOST_TIME)
+  local own = timecode.rate(number_of(value, what .. ": ", "rate", 1e-6, MOST_RATE))
   state.rate = state.rate or own
   return own == state.rate and number or number * state.rate / own
 end
@@ -138,8 +138,8 @@ local function speed_of(state, child, what)
   for _, effect in ipairs(table_of(child.effects)) do
     local schema = schema_of(effect)
     if schema == "LinearTimeWarp" or schema == "FreezeFrame" then
-      local scalar = schema == "FreezeFrame" and 0 or effect.time_scalar
-      speed = speed * number_of(scalar, what .. ": time_scalar", -100, 100)
+      speed = speed * (schema == "FreezeFrame" and 0
+        or number_of(effect, what .. ": ", "time_scalar", -100, 100))
     else
       skip(state, "%s: the effect %s is not known", what, schema or "without a schema")
     end

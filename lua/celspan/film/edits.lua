@@ -11,7 +11,6 @@ local carried = require "celspan.carried"
 local celspan = require "celspan"
 local edit_edl = require "celspan.edit_edl"
 local edit_otio = require "celspan.edit_otio"
-local edit_values = require "celspan.edit_values"
 local fields = require "celspan.fields"
 local files = require "celspan.files"
 local json = require "celspan.json"
@@ -20,13 +19,14 @@ local shots_of = require "celspan.shots"
 local soundtrack = require "celspan.soundtrack"
 local storyboard = require "celspan.storyboard"
 local timecode = require "celspan.timecode"
+local values = require "celspan.values"
 
 local edits = {}
 
 local MOST_BYTES = 64 * 1024 * 1024 -- of a list
 local MOST_NAMES = 100 -- among which the nearest is looked for
 
-local fail, skip = edit_values.fail, edit_values.skip
+local fail, skip = values.fail, values.skip
 
 local function base_of(path) return path:match "[^/\\]*$" end
 
@@ -133,7 +133,7 @@ end
 --- Checks the films. Returns the first by its name, which gives size and rate.
 local function check_films(films)
   local first
-  for name, film in pairs(edit_values.table_of(films)) do
+  for name, film in pairs(values.table(films)) do
     fields.expect_kind(carried.is_film(film), film, "cut: read: '%s' must be a film",
       fields.key(name))
     if type(name) == "string" and not (first and first < name) then first = name end

@@ -3,11 +3,10 @@
 --   board.storyboarder     JSON: milliseconds and dialogue of each board, and its layers
 --   images/                the pictures of the layers, rearmost first as in LAYERS
 local celspan = require "celspan"
-local edit_values = require "celspan.edit_values"
-local json = require "celspan.json"
 local native = require "celspan.native"
 local ordered = require "celspan.ordered"
 local timecode = require "celspan.timecode"
+local values = require "celspan.values"
 
 local storyboard = {}
 
@@ -15,13 +14,12 @@ local SIDE = 900 -- pixels of the shorter side of a board
 local LONGEST = 1e8 -- milliseconds of a board
 local LAYERS = { "shot-generator", "reference", "fill", "tone", "pencil", "ink", "notes" }
 
-local fail, number_of = edit_values.fail, edit_values.number_of
-local table_of, text_of = edit_values.table_of, edit_values.text_of
+local number_of, table_of, text_of = values.number, values.table, values.text
 
 --- A file in the folder of the pictures; nil and a sentence in `skipped` if it is not there.
 local function file_of(state, place, url)
   local found = url and native.within(state.folder, "images/" .. url)
-  if url and not found then edit_values.skip(state, "%s: there is no images/%s", place, url) end
+  if url and not found then values.skip(state, "%sthere is no images/%s", place, url) end
   return found
 end
 
@@ -32,7 +30,7 @@ local function drawing_of(state, board, place)
   for _, name in ipairs(LAYERS) do
     local layer = table_of(table_of(board.layers)[name])
     local file = file_of(state, place, text_of(layer.url))
-    local opacity = number_of(layer.opacity, place .. ": opacity", 0, 1, 1)
+    local opacity = number_of(layer, place, "opacity", 0, 1, 1)
     list[#list + 1] = file and celspan.image { file = file, w = w, h = h }:fade(opacity) or nil
   end
   return list
@@ -42,16 +40,14 @@ end
 local function frame_at(state, milli) return math.floor(milli * state.fps / 1000 + 0.5) end
 
 --- Adds a panel that begins at `milli`, if it lasts a frame. Returns the milliseconds at its end.
-local function add_panel(state, board, i, milli)
-  local place = ("board %d"):format(i)
-  if type(board) ~= "table" then fail("%s is no object", place) end
-  local stop = milli + number_of(board.duration, place .. ": duration", 0, LONGEST, state.default)
+local function add_panel(state, board, place, milli)
+  local stop = milli + number_of(board, place, "duration", 0, LONGEST, state.default)
   local first, last = frame_at(state, milli), frame_at(state, stop)
   if first == last then return stop end
   local from, to, said = first / state.fps, last / state.fps, text_of(board.dialogue)
   state.panels[#state.panels + 1] = { first = first, drawing = drawing_of(state, board, place) }
-  state.shots[#state.shots + 1] = { name = text_of(board.shot) or tostring(i), from = from, to = to,
-    source = { from = 0, to = to - from }, dialogue = said, action = text_of(board.action),
+  state.shots[#state.shots + 1] = { name = text_of(board.shot) or place:match "%d+", from = from,
+    to = to, source = { from = 0, to = to - from }, dialogue = said, action = text_of(board.action),
     notes = text_of(board.notes) }
   if said then state.captions[#state.captions + 1] = { from = from, to = to, text = said } end
   local sound = file_of(state, place, text_of(table_of(board.audio).filename))
@@ -63,19 +59,20 @@ end
 ---@return celspan.film film
 ---@return table shots
 function storyboard.read(text, folder)
-  local document, message = json.decode(text)
-  if document == nil then fail("%s", message) end
-  if type(table_of(document).boards) ~= "table" then fail "is no storyboard: it has no boards" end
-  local aspect = number_of(document.aspectRatio, "aspectRatio", 0.01, 100, 16 / 9)
-  local state = { fps = (timecode.rate(number_of(document.fps, "fps", 1, 1000, 24))),
-    default = number_of(document.defaultBoardTiming, "defaultBoardTiming", 0, LONGEST, 2000),
+  local document = values.decode(text, "the storyboard")
+  if type(document.boards) ~= "table" then values.fail "is no storyboard: it has no boards" end
+  local aspect = number_of(document, "", "aspectRatio", 0.01, 100, 16 / 9)
+  local state = { fps = (timecode.rate(number_of(document, "", "fps", 1, 1000, 24))),
+    default = number_of(document, "", "defaultBoardTiming", 0, LONGEST, 2000),
     size = { math.floor(SIDE * math.max(1, aspect) + 0.5),
              math.floor(SIDE / math.min(1, aspect) + 0.5) },
     folder = folder, panels = {}, shots = {}, captions = {}, sounds = {}, skipped = {} }
   local milli = 0
-  for i, board in ipairs(document.boards) do milli = add_panel(state, board, i, milli) end
+  for board, place in values.each(document, "", "boards", nil, "board %d: ") do
+    milli = add_panel(state, board, place, milli)
+  end
   local panels = state.panels
-  if #panels == 0 then fail "has no board that lasts a frame" end
+  if #panels == 0 then values.fail "has no board that lasts a frame" end
   state.shots.skipped = state.skipped
   return celspan.film { size = state.size, fps = state.fps, frames = frame_at(state, milli),
     captions = state.captions, sound = state.sounds,

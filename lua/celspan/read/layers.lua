@@ -309,7 +309,7 @@ end
 local function read_any(path, options)
   local names, message = native.folder(path)
   if names then
-    local document = sheet_oca.document(names)
+    local document = sheet_oca.file(names)
     if document then return from_oca(path, document, options) end
     return from_folder(path, names, options)
   end

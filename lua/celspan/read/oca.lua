@@ -14,41 +14,37 @@ local fields = require "celspan.fields"
 local files = require "celspan.files"
 local json = require "celspan.json"
 local sheet_oca = require "celspan.sheet_oca"
+local values = require "celspan.values"
 
 local oca = {}
 
 --- The most layers and drawings in a document.
 oca.most_layers = 65536
 
-local function fail(...) error({ message = string.format(...) }, 0) end
+local fail, get, number_of = values.fail, values.get, values.number
 
 -- ---------------------------------------------------------------- values
 
-local value_of, number_of = sheet_oca.value, sheet_oca.number
-
 --- The corner and size of something with a given centre.
-local function place_of(object, what, width, height)
-  local w = number_of(object, what, "width", width, 1, 1048576)
-  local h = number_of(object, what, "height", height, 1, 1048576)
-  local centre = value_of(object, what, "position", {})
-  local x = number_of(centre, what .. ": position", 1, width / 2, -1e9, 1e9)
-  local y = number_of(centre, what .. ": position", 2, height / 2, -1e9, 1e9)
+local function place_of(object, where, width, height)
+  local w = number_of(object, where, "width", 1, columns.most_pixels, width)
+  local h = number_of(object, where, "height", 1, columns.most_pixels, height)
+  local centre = get(object, where, "position", "table", {})
+  local x = number_of(centre, where .. "position: ", 1, -1e9, 1e9, width / 2)
+  local y = number_of(centre, where .. "position: ", 2, -1e9, 1e9, height / 2)
   return x - w / 2, y - h / 2, w, h
 end
 
 --- The file of a drawing, which must be in the folder.
-local function file_of(state, what, name)
+local function file_of(state, where, name)
   local path = name:gsub("\\", "/")
   local is_outside = path:find "^/" or path:find "^%a:"
     or ("/" .. path .. "/"):find("/../", 1, true)
   if is_outside or path:find "%z" then
-    fail("%s: fileName is %q; it must lie in the folder", what, name)
+    fail("%sfileName is %q; it must lie in the folder", where, name)
   end
   local found = native.within(state.folder, path)
-  if not found then
-    fail("%s: fileName is %q, which is not in the folder", what, name)
-  end
-  return found
+  return found or fail("%sfileName is %q, which is not in the folder", where, name)
 end
 
 -- Krita's words for modes that celspan lacks, with "_" as "-"; the words in Krita's files are in
@@ -57,15 +53,15 @@ local blends = { passthrough = "pass-through", add = "linear-dodge", plus = "add
   dodge = "color-dodge", burn = "color-burn", diff = "difference", luminize = "luminosity",
   soft_light = "soft-light-photoshop", soft_light_svg = "soft-light" }
 
-local function blend_of(layer, what)
-  local word = value_of(layer, what, "blendingMode", "normal"):lower()
+local function blend_of(layer, where)
+  local word = get(layer, where, "blendingMode", "string", "normal"):lower()
   return blends[word] or (word:gsub("[_ ]", "-"))
 end
 
-local function count_layer(state, what)
+local function count_layer(state, where)
   state.count = state.count + 1
   if state.count > oca.most_layers then
-    fail("%s: there are more than %d layers and drawings, which is the limit", what,
+    fail("%sthere are more than %d layers and drawings, which is the limit", where,
       oca.most_layers)
   end
 end
@@ -99,21 +95,17 @@ local function share_opacity(state, layer, drawings)
 end
 
 --- The drawings of a layer that are not empty, in order, and whether its first frame is empty.
-local function read_drawings(state, layer, path, what)
+local function read_drawings(state, layer, path, where)
   local list, is_late = {}, false
-  for i, frame in ipairs(value_of(layer, what, "frames", {})) do
-    local here = ("%s: frame %d"):format(what, i)
-    if type(frame) ~= "table" then
-      fail("%s must be an object, got %s", here, fields.kind(frame))
-    end
+  for frame, here in sheet_oca.frames(layer, where) do
     count_layer(state, here)
-    local name, file = sheet_oca.drawing(frame, here), value_of(frame, here, "fileName", "")
+    local name = sheet_oca.drawing(frame, here)
     if name then
       local x, y, w, h = place_of(frame, here, state.width, state.height)
       list[#list + 1] = { name = name, x = x, y = y, blend = "normal",
         visible = #list == 0 and not is_late,
-        opacity = number_of(frame, here, "opacity", 1, 0, 1),
-        picture = { file = file_of(state, here, file), x = x, y = y, w = w, h = h } }
+        opacity = number_of(frame, here, "opacity", 0, 1, 1),
+        picture = { file = file_of(state, here, frame.fileName), x = x, y = y, w = w, h = h } }
     elseif #list == 0 then
       is_late = true
     end
@@ -128,30 +120,27 @@ end
 
 local read_layers
 
-local function read_layer(state, layer, folder, what)
-  if type(layer) ~= "table" then fail("%s must be an object, got %s", what, fields.kind(layer)) end
-  count_layer(state, what)
-  local name = value_of(layer, what, "name", "")
+local function read_layer(state, layer, folder, where)
+  count_layer(state, where)
+  local name = get(layer, where, "name", "string", "")
   local path = folder .. name
-  local out = { name = name, x = 0, y = 0, blend = blend_of(layer, what),
-    opacity = number_of(layer, what, "opacity", 1, 0, 1),
-    visible = value_of(layer, what, "visible", true)
-      and not value_of(layer, what, "reference", false) }
-  if value_of(layer, what, "inheritAlpha", false) then
+  local is_group, is_visible, opacity = sheet_oca.look(layer, where)
+  local out = { name = name, x = 0, y = 0, blend = blend_of(layer, where), opacity = opacity,
+                visible = is_visible }
+  if get(layer, where, "inheritAlpha", "boolean", false) then
     state.skipped[#state.skipped + 1] = { layer = path,
       what = "alpha is inherited from the layers below: it is shown whole" }
   end
-  if value_of(layer, what, "type", "paintlayer") == "grouplayer" then
-    if value_of(layer, what, "passThrough", false) then out.blend = "pass-through" end
-    out.children = read_layers(state, value_of(layer, what, "childLayers", {}), path .. "/",
-      what .. ": ")
+  if is_group then
+    if get(layer, where, "passThrough", "boolean", false) then out.blend = "pass-through" end
+    out.children = read_layers(state, layer, "childLayers", path .. "/", where)
     return out
   end
-  local drawings, is_late = read_drawings(state, layer, path, what)
+  local drawings, is_late = read_drawings(state, layer, path, where)
   share_opacity(state, out, drawings)
   if #drawings > 1 or is_late and #drawings > 0 then
     out.children, out.exposures = drawings, columns.new(path)
-    sheet_oca.expose(out.exposures, layer, what, state.from)
+    sheet_oca.expose(out.exposures, layer, where, state.clip.from)
   elseif #drawings == 1 then
     out.x, out.y, out.picture = drawings[1].x, drawings[1].y, drawings[1].picture
     out.opacity = out.opacity * drawings[1].opacity
@@ -159,21 +148,21 @@ local function read_layer(state, layer, folder, what)
   return out
 end
 
-function read_layers(state, list, folder, what)
+function read_layers(state, group, name, folder, where)
   local out = {}
-  for i, layer in ipairs(list) do
-    out[i] = read_layer(state, layer, folder, ("%slayer %d"):format(what, i))
+  for layer, here in sheet_oca.layers(group, where, name) do
+    out[#out + 1] = read_layer(state, layer, folder, here)
   end
   return out
 end
 
 --- The background of the document as a layer, if it has one.
 local function background(document, width, height)
-  local colour = value_of(document, "the document", "backgroundColor", {})
+  local colour = get(document, "the document: ", "backgroundColor", "table", {})
   local codes = {}
   for i = 1, 4 do
-    codes[i] = math.floor(255 * number_of(colour, "backgroundColor", i, 0, 0, 1e9) + 0.5)
-    codes[i] = math.min(255, codes[i])
+    local share = number_of(colour, "backgroundColor: ", i, 0, 1e9, 0)
+    codes[i] = math.min(255, math.floor(255 * share + 0.5))
   end
   if codes[4] == 0 then return nil end
   return { name = "background", x = 0, y = 0, opacity = 1, visible = true, blend = "normal",
@@ -182,21 +171,15 @@ local function background(document, width, height)
 end
 
 local function read_document(folder, text)
-  local document, problem = json.decode(text)
-  if document == nil then fail("%s", problem) end
-  if type(document) ~= "table" then fail("the document must be an object") end
-  local state = { folder = folder, count = 0, skipped = {},
-    width = number_of(document, "the document", "width", 1920, 1, 1048576),
-    height = number_of(document, "the document", "height", 1080, 1, 1048576) }
-  local clip = sheet_oca.clip(document)
-  state.from = clip.from
-  state.has_one_opacity = has_one_opacity(value_of(document, "the document", "ocaVersion", ""))
-  local list = value_of(document, "the document", "layers", {})
-  local read = read_layers(state, list, "", "")
-  local ground = background(document, state.width, state.height)
+  local document, clip = sheet_oca.document(text)
+  local width, height = clip.width, clip.height
+  local state = { folder = folder, count = 0, skipped = {}, width = width, height = height,
+    clip = clip, has_one_opacity = has_one_opacity(get(document, "the document: ", "ocaVersion",
+      "string", "")) }
+  local read = read_layers(state, document, "layers", "", "")
+  local ground = background(document, width, height)
   if ground then table.insert(read, 1, ground) end
-  return { width = state.width, height = state.height, layers = read, skipped = state.skipped,
-           clip = clip }
+  return { width = width, height = height, layers = read, skipped = state.skipped, clip = clip }
 end
 
 ---@param folder string

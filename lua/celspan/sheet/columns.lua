@@ -7,6 +7,7 @@
 -- INVARIANT: neighbours in `names` differ, so each column has only one representation.
 local fields = require "celspan.fields"
 local ordered = require "celspan.ordered"
+local values = require "celspan.values"
 
 local columns = {}
 
@@ -36,12 +37,8 @@ function columns.add(column, frame, name)
 end
 
 function columns.mark(column, frame, mark)
-  local set = column.marks[frame]
-  if not set then
-    set = {}
-    column.marks[frame] = set
-  end
-  set[mark] = true
+  column.marks[frame] = column.marks[frame] or {}
+  column.marks[frame][mark] = true
 end
 
 local lookups = 0
@@ -74,27 +71,15 @@ end
 function columns.check_cells(rows, list)
   local count = rows * (#list + 1)
   if count > columns.most_cells then
-    columns.fail("it would have %d rows of %d cells, more than %d cells, which is the limit", rows,
+    values.fail("it would have %d rows of %d cells, more than %d cells, which is the limit", rows,
       #list + 1, columns.most_cells)
   end
 end
 
---- Longer messages quote a file that is not a sheet at all.
-local MESSAGE_BYTES = 400
-
---- Raises an error in a reader: read returns its message.
-function columns.fail(...)
-  local message = string.format(...)
-  if #message > MESSAGE_BYTES then
-    message = message:sub(1, MESSAGE_BYTES):gsub("[\192-\255][\128-\191]*$", "") .. " ..."
-  end
-  error({ message = message }, 0)
-end
-
 --- Raises an error unless the text is UTF-8 without zero bytes. what: its name in the message.
 function columns.check_text(text, what)
-  if not utf8.len(text) then columns.fail("%s is not UTF-8", what) end
-  if text:find "%z" then columns.fail("%s holds a zero byte", what) end
+  if not utf8.len(text) then values.fail("%s is not UTF-8", what) end
+  if text:find "%z" then values.fail("%s holds a zero byte", what) end
   return text
 end
 
@@ -121,39 +106,36 @@ function columns.length(given, list, notes)
   return frames
 end
 
---- Converts a table from frames to a list in their order: { frame =, value = }.
-local function by_frame(given, what)
-  local list = {}
+local known_marks = {}
+for _, mark in ipairs(columns.marks) do known_marks[mark[1]] = true end
+
+--- Fills a column with drawings or marks that a script gives by frame. use: columns.add or
+--- columns.mark; what they must be; is_right: whether a value is.
+local function fill(column, given, kind, what, use, is_right)
+  local list, place = {}, ("%s of %q"):format(kind, column.name)
   for frame, value in next, given do
     if math.type(frame) ~= "integer" or frame < 1 or frame > columns.most_frames then
-      columns.fail("%s: a frame must be a whole number from 1 to %d, got %s", what,
+      values.fail("%s: a frame must be a whole number from 1 to %d, got %s", place,
         columns.most_frames, fields.shown(frame))
     end
     list[#list + 1] = { frame = frame, value = value }
   end
-  return columns.sort(list)
+  for _, entry in ipairs(columns.sort(list)) do
+    if not is_right(entry.value) then
+      values.fail("%s: frame %d must be %s, got %s", place, entry.frame, what,
+        fields.kind(entry.value))
+    end
+    use(column, entry.frame, entry.value)
+  end
 end
 
 --- Fills a column with drawings and marks that a script gives, both by frame.
 function columns.fill(column, drawings, marks)
-  local what = ("drawings of %q"):format(column.name)
-  for _, entry in ipairs(by_frame(drawings, what)) do
-    if type(entry.value) ~= "string" and entry.value ~= false then
-      columns.fail("%s: frame %d must be a name, or false if empty, got %s", what, entry.frame,
-        fields.kind(entry.value))
-    end
-    columns.add(column, entry.frame, entry.value)
-  end
-  local known = {}
-  for _, mark in ipairs(columns.marks) do known[mark[1]] = true end
-  what = ("marks of %q"):format(column.name)
-  for _, entry in ipairs(by_frame(marks, what)) do
-    if not known[entry.value] then
-      columns.fail("%s: frame %d must be inbetween, reverse, key, reference, moved or procedure",
-        what, entry.frame)
-    end
-    columns.mark(column, entry.frame, entry.value)
-  end
+  fill(column, drawings, "drawings", "a name, or false if empty", columns.add, function(name)
+    return type(name) == "string" or name == false
+  end)
+  fill(column, marks, "marks", "inbetween, reverse, key, reference, moved or procedure",
+    columns.mark, function(mark) return known_marks[mark] end)
 end
 
 return columns

@@ -16,6 +16,7 @@ local sheet_film = require "celspan.sheet_film"
 local sheet_krita = require "celspan.sheet_krita"
 local sheet_oca = require "celspan.sheet_oca"
 local sheet_text = require "celspan.sheet_text"
+local values = require "celspan.values"
 local xdts = require "celspan.xdts"
 
 local sheet = {}
@@ -52,13 +53,13 @@ local stores = setmetatable({}, { __mode = "k" })
 -- ---------------------------------------------------------------- making
 
 local function check_names(list)
-  local known = {}
+  local known = { [false] = true }
   for i, column in ipairs(list) do
     columns.check_text(column.name, ("the name of layer %d"):format(i))
     for _, name in ipairs(column.names) do
-      if name and not known[name] then
+      if not known[name] then
         columns.check_text(name, ("layer %q: a drawing's name"):format(column.name))
-        if name == "" then columns.fail("layer %q: a drawing's name is empty", column.name) end
+        if name == "" then values.fail("layer %q: a drawing's name is empty", column.name) end
         known[name] = true
       end
     end
@@ -67,32 +68,22 @@ end
 
 local function check_notes(notes, frames)
   for i, note in ipairs(notes) do
-    note.frame = note.from
-    note.to = math.min(note.to or frames, frames)
+    note.frame, note.to = note.from, math.min(note.to or frames, frames)
     for _, field in ipairs { "kind", "column", "text", "speaker" } do
       if note[field] then columns.check_text(note[field], ("note %d: its %s"):format(i, field)) end
     end
   end
-  columns.sort(notes)
-  for _, note in ipairs(notes) do note.frame = nil end
-end
-
---- Removes a change of a column beyond the end of the sheet, which only closes the column.
-local function trim(column, frames)
-  for i = #column.at, 1, -1 do
-    if column.at[i] <= frames then break end
-    column.at[i], column.names[i] = nil, nil
-  end
+  for _, note in ipairs(columns.sort(notes)) do note.frame = nil end
 end
 
 --- Makes a sheet from the result of a reader. Raises { message = }.
 local function finish(found)
   if not (found.fps > 0 and found.fps <= 1000) then
-    columns.fail("its frame rate is %s; it must be above 0 and at most 1000",
+    values.fail("its frame rate is %s; it must be above 0 and at most 1000",
       fields.shown(found.fps))
   end
   if not (found.frames >= 1 and found.frames <= columns.most_frames) then
-    columns.fail("it has %s frames; it must be 1 to %d", fields.shown(found.frames),
+    values.fail("it has %s frames; it must be 1 to %d", fields.shown(found.frames),
       columns.most_frames)
   end
   check_names(found.layers)
@@ -107,11 +98,12 @@ local function finish(found)
   end
   for i, column in ipairs(found.layers) do
     made.layers[i], made.looks[i] = column.name, column.look or {}
-    trim(column, found.frames)
+    while (column.at[#column.at] or 0) > found.frames do -- these only close the column
+      column.at[#column.at], column.names[#column.names] = nil, nil
+    end
   end
-  setmetatable(made, Sheet)
   stores[made] = found.layers
-  return made
+  return setmetatable(made, Sheet)
 end
 
 -- ---------------------------------------------------------------- new
@@ -120,28 +112,26 @@ local known_fields = { name = "string", scene = "string", cut = "string", fps = 
                        frames = "number", layers = "table", drawings = "table", marks = "table",
                        notes = "table", width = "number", height = "number" }
 
-local function fill_notes(given, list)
-  for i, note in ipairs(given) do
-    local what = ("notes[%d]"):format(i)
-    if type(note) ~= "table" then
-      columns.fail("%s must be a table, got %s", what, fields.kind(note))
-    end
-    local copy = {}
-    for field, wanted in pairs { kind = "string", column = "string", text = "string",
-                                 speaker = "string", from = "number", to = "number" } do
-      local value = note[field]
-      local may_miss = field == "speaker" or field == "to"
-      if type(value) ~= wanted and not (value == nil and may_miss) then
-        columns.fail("%s: %s must be a %s, got %s", what, field, wanted, fields.kind(value))
+--- A copy of a note that a script gives. where: "notes[2]: "
+local function note_of(note, where)
+  fields.takes("sheet: " .. where:sub(1, -3), "table", "a table", note)
+  local function text(name) return values.get(note, where, name, "string") end
+  local function frame(name, least, default)
+    return values.whole(note, where, name, least, columns.most_frames, default)
+  end
+  local from = frame("from", 1)
+  return { kind = text "kind", column = text "column", text = text "text", from = from,
+    to = frame("to", from, from), speaker = note.speaker and text "speaker" or nil }
+end
+
+--- Checks that the keys of `drawings` and `marks` are layers.
+local function check_layers(given, places)
+  for _, field in ipairs { "drawings", "marks" } do
+    for name, value in next, given[field] or {} do
+      if not places[name] or type(value) ~= "table" then
+        values.fail("%s: %s must be a layer, with a table from frames", field, fields.key(name))
       end
-      copy[field] = value
     end
-    local from, to = math.tointeger(copy.from), math.tointeger(copy.to or copy.from)
-    if not from or not to or from < 1 or to < from or to > columns.most_frames then
-      columns.fail("%s: from and to must be whole numbers, 1 or more, in order", what)
-    end
-    copy.from, copy.to = from, to
-    list[i] = copy
   end
 end
 
@@ -149,33 +139,23 @@ local function make(given)
   local list, notes, places = {}, {}, {}
   for i, name in ipairs(given.layers or {}) do
     if type(name) ~= "string" then
-      columns.fail("layers[%d] must be a name, got %s", i, fields.kind(name))
+      values.fail("layers[%d] must be a name, got %s", i, fields.kind(name))
     end
-    if places[name] then columns.fail("layers[%d]: %q is a duplicate", i, name) end
+    if places[name] then values.fail("layers[%d]: %q is a duplicate", i, name) end
     list[i], places[name] = columns.new(name), i
   end
-  for _, field in ipairs { "drawings", "marks" } do
-    for name, value in next, given[field] or {} do
-      if not places[name] or type(value) ~= "table" then
-        columns.fail("%s: %s must be a layer, with a table from frames", field,
-          fields.key(name))
-      end
-    end
-  end
-  for i, column in ipairs(list) do
+  check_layers(given, places)
+  for _, column in ipairs(list) do
     columns.fill(column, (given.drawings or {})[column.name] or {},
       (given.marks or {})[column.name] or {})
-    list[i] = column
   end
-  fill_notes(given.notes or {}, notes)
-  local frames = math.tointeger(given.frames or 1)
-  if not frames then columns.fail("frames must be a whole number") end
-  for _, field in ipairs { "width", "height" } do
-    local size = given[field] or 1
-    if size < 1 or size > columns.most_pixels or size ~= math.floor(size) then
-      columns.fail("%s must be a whole number from 1 to %d", field, columns.most_pixels)
-    end
+  for i, note in ipairs(given.notes or {}) do
+    notes[i] = note_of(note, ("notes[%d]: "):format(i))
   end
+  for _, side in ipairs { "width", "height" } do
+    values.whole(given, "", side, 1, columns.most_pixels, 1)
+  end
+  local frames = math.tointeger(given.frames or 1) or values.fail "frames must be a whole number"
   return finish { name = given.name, scene = given.scene, cut = given.cut, fps = given.fps or 24,
     frames = columns.length(frames, list, notes), layers = list, notes = notes,
     width = given.width, height = given.height }
@@ -213,7 +193,7 @@ local function decode(text, path, which)
   if sheet_csv.accepts(start) or path:lower():find "%.csv$" then
     return finish(sheet_csv.decode(start))
   end
-  columns.fail("it is not XDTS, the CSV of TVPaint, Krita or Clip Studio, OCA, .kra, or celspan's "
+  values.fail("it is not XDTS, the CSV of TVPaint, Krita or Clip Studio, OCA, .kra, or celspan's "
     .. "text, which begins with \"celspan sheet 1\"")
 end
 
@@ -221,7 +201,7 @@ local function read_whole(path)
   if path:lower():find "%.kra$" then return native.painting(path) end
   local names = native.folder(path)
   if names then
-    local document = sheet_oca.document(names)
+    local document = sheet_oca.file(names)
     if not document then return nil, path .. ": the folder contains no OCA document" end
     path = path .. "/" .. document
   end
@@ -258,10 +238,11 @@ local function place_of(self, layer, method)
     hint and ("; did you mean %q?"):format(hint) or ""))
 end
 
+--- The column of a layer; checks that a method is called as one.
 local function column_of(self, layer, method)
-  local store = stores[self] or native.refuse("sheet: " .. method
-    .. ": call it as a method of a sheet")
-  return store[place_of(self, layer, method)]
+  fields.expect_kind(stores[self], self, "sheet: %s: call it as a method, value:%s(...)", method,
+    method)
+  return stores[self][place_of(self, layer, method)]
 end
 
 local function check_frame(frame, method)
@@ -276,7 +257,6 @@ end
 ---@param frame integer From 1
 ---@return string? drawing
 function methods:at(layer, frame)
-  fields.self("sheet", Sheet, self, "at")
   local column = column_of(self, layer, "at")
   frame = check_frame(frame, "at")
   if frame < 1 or frame > self.frames then return nil end
@@ -295,7 +275,6 @@ end
 ---@param frame? integer
 ---@return table<string, true>|table<integer, table<string, true>> marks
 function methods:marks(layer, frame)
-  fields.self("sheet", Sheet, self, "marks")
   local column, all = column_of(self, layer, "marks"), {}
   if frame then return copy_of(column.marks[check_frame(frame, "marks")]) end
   for number, marks in pairs(column.marks) do all[number] = copy_of(marks) end
@@ -307,7 +286,6 @@ end
 ---@param layer string|integer
 ---@return { frame: integer, drawing?: string }[] changes
 function methods:changes(layer)
-  fields.self("sheet", Sheet, self, "changes")
   local column, list = column_of(self, layer, "changes"), {}
   for i, frame in ipairs(column.at) do
     list[i] = { frame = frame, drawing = column.names[i] or nil }
@@ -389,8 +367,8 @@ end
 --- The sheet's frame at a time in seconds; rounding errors just before a frame are tolerated.
 local function frame_at(self, time) return math.floor(time * self.fps + 1e-6) + 1 end
 
-local function subject_of(self, layer, drawings, options)
-  local column = column_of(self, layer, "drawing")
+local function subject_of(self, layer, method, drawings, options)
+  local column = column_of(self, layer, method)
   local find, where = finder(drawings, column.name)
   return { column = column, frames = self.frames, layer = column.name, find = find,
            where = where, options = options }
@@ -403,11 +381,8 @@ end
 ---@param options? { between?: boolean, charts?: table<string, number[]|string|function>, pairs?: table }
 ---@return celspan.object? object
 function methods:drawing(layer, f, drawings, options)
-  fields.self("sheet", Sheet, self, "drawing")
-  local frame = f
-  if type(f) == "userdata" then frame = frame_at(self, f.time) end
-  frame = check_frame(frame, "drawing")
-  local subject = subject_of(self, layer, drawings, options)
+  local subject = subject_of(self, layer, "drawing", drawings, options)
+  local frame = type(f) == "userdata" and frame_at(self, f.time) or check_frame(f, "drawing")
   if options ~= nil and sheet_between.read(subject) then
     return sheet_between.drawing(subject, frame)
   end
@@ -427,8 +402,8 @@ end
 ---@param options? { between?: boolean, charts?: table<string, number[]|string|function>, pairs?: table }
 ---@return table[] charts
 function methods:charts(layer, drawings, options)
-  fields.self("sheet", Sheet, self, "charts")
-  local subject = subject_of(self, layer, drawings or function() return true end, options or {})
+  local subject = subject_of(self, layer, "charts", drawings or function() return true end,
+    options or {})
   sheet_between.read(subject)
   return sheet_between.charts(subject, drawings ~= nil)
 end

@@ -4,29 +4,27 @@ local native = require "celspan.native"
 
 local sheet_film = {}
 
---- The label of each part of a frame: its name; with the kind, if two kinds have the same name.
+local function key_of(part) return part.kind .. " " .. part.name end
+
+--- The column of a part: its name; with the kind, if two kinds have the same name.
 local function column_for(state, part)
-  local column = state.by_key[part.kind .. " " .. part.name]
+  local column, name = state.by_key[key_of(part)], part.name
   if column then return column end
-  local name = part.name
   if state.taken[name] then name = ("%s (%s)"):format(name, part.kind) end
   column = columns.new(name)
   column.numbers, column.count = {}, 0
-  state.taken[name] = true
-  state.by_key[part.kind .. " " .. part.name] = column
+  state.taken[name], state.by_key[key_of(part)] = true, column
   state.layers[#state.layers + 1] = column
   return column
 end
 
 --- A drawing is numbered when it first appears, and recognised later by its contents.
 local function number_of(column, drawing)
-  local number = column.numbers[drawing]
-  if not number then
+  if not column.numbers[drawing] then
     column.count = column.count + 1
-    number = tostring(column.count)
-    column.numbers[drawing] = number
+    column.numbers[drawing] = tostring(column.count)
   end
-  return number
+  return column.numbers[drawing]
 end
 
 --- The parts of a frame by name. A part that occurs several times, for instance in two exposures,
@@ -34,11 +32,10 @@ end
 local function merge_parts(list)
   local order, by_key = {}, {}
   for _, part in ipairs(list) do
-    local key = part.kind .. " " .. part.name
-    local one = by_key[key]
+    local one = by_key[key_of(part)]
     if not one then
       one = { kind = part.kind, name = part.name, drawing = "", placement = "", known = {} }
-      by_key[key], order[#order + 1] = one, one
+      by_key[key_of(part)], order[#order + 1] = one, one
     end
     for _, half in ipairs { "drawing", "placement" } do
       local hash = part[half]
@@ -64,19 +61,17 @@ local function add_part(column, part, frame)
   column.placement, column.met = part.placement, frame
 end
 
-local function add_frame(state, list, frame)
-  for _, part in ipairs(merge_parts(list)) do add_part(column_for(state, part), part, frame) end
-  for _, column in ipairs(state.layers) do
-    if column.met ~= frame then columns.add(column, frame, false) end
-  end
-end
-
 --- The columns of all frames, or of those with the listed numbers.
 function sheet_film.columns(film, listed)
   local state = { layers = {}, by_key = {}, taken = {} }
-  for index = 1, listed and #listed or film.frames do
-    local number = listed and listed[index] or film.first + index - 1
-    add_frame(state, native.parts(film:at(number)), index)
+  for frame = 1, listed and #listed or film.frames do
+    local number = listed and listed[frame] or film.first + frame - 1
+    for _, part in ipairs(merge_parts(native.parts(film:at(number)))) do
+      add_part(column_for(state, part), part, frame)
+    end
+    for _, column in ipairs(state.layers) do
+      if column.met ~= frame then columns.add(column, frame, false) end
+    end
   end
   return state.layers
 end

@@ -5,62 +5,55 @@
 -- layers.read, and layers are named by their paths, "group/layer".
 local columns = require "celspan.columns"
 local fields = require "celspan.fields"
-local json = require "celspan.json"
+local values = require "celspan.values"
 
 local sheet_oca = {}
 
-local words = { table = "list" }
-
---- A value of an object of the document, or its default. what: the object, for messages.
-function sheet_oca.value(object, what, name, default)
-  local value = object[name]
-  if value == nil or value == json.null then return default end
-  if type(value) ~= type(default) then
-    columns.fail("%s: %s must be a %s, got %s", what, name,
-      words[type(default)] or type(default), fields.kind(value))
-  end
-  return value
-end
-
-function sheet_oca.number(object, what, name, default, least, most)
-  local number = sheet_oca.value(object, what, name, default)
-  if not (number >= least and number <= most) then
-    columns.fail("%s: %s is %s; it must be a number from %.10g to %.10g", what, name,
-      fields.shown(number), least, most)
-  end
-  return number
-end
-
-local get, number_of = sheet_oca.value, sheet_oca.number
+local get = values.get
 
 --- A number of frames; some programs write it as a float.
-local function frame_of(object, what, name, default, least)
-  local number = number_of(object, what, name, default, least, columns.most_frames)
+local function frame_of(object, where, name, default, least)
+  local number = values.number(object, where, name, least or -columns.most_frames,
+    columns.most_frames, default)
   return math.tointeger(math.floor(number + 0.5))
 end
 
 --- The name of a drawing, or false for an empty one.
-function sheet_oca.drawing(frame, what)
-  local name, file = get(frame, what, "name", ""), get(frame, what, "fileName", "")
+function sheet_oca.drawing(frame, where)
+  local name = get(frame, where, "name", "string", "")
+  local file = get(frame, where, "fileName", "string", "")
   if file == "" or name == "_blank" then return false end
   if name ~= "" then return name end
   return file:gsub("\\", "/"):match "[^/]*$":gsub("%.%w+$", "")
 end
 
+--- Each frame of a layer, and where it is.
+function sheet_oca.frames(layer, where)
+  return values.each(layer, where, "frames", {}, "frame %d: ")
+end
+
+--- Each layer of a group or of the document, and where it is.
+function sheet_oca.layers(group, where, name)
+  return values.each(group, where, name, {}, "layer %d: ")
+end
+
+--- Whether a layer is a group, is shown, and its opacity.
+function sheet_oca.look(layer, where)
+  return get(layer, where, "type", "string", "paintlayer") == "grouplayer",
+    get(layer, where, "visible", "boolean", true)
+      and not get(layer, where, "reference", "boolean", false),
+    values.number(layer, where, "opacity", 0, 1, 1)
+end
+
 --- Reads the frames of a layer into a column. start: the first frame of the document.
-function sheet_oca.expose(column, layer, what, start)
+function sheet_oca.expose(column, layer, where, start)
   local list = {}
-  for i, frame in ipairs(get(layer, what, "frames", {})) do
-    local here = ("%s: frame %d"):format(what, i)
-    if type(frame) ~= "table" then
-      columns.fail("%s must be an object, got %s", here, fields.kind(frame))
-    end
-    list[i] = { frame = frame_of(frame, here, "frameNumber", 0, -columns.most_frames) - start + 1,
-                length = frame_of(frame, here, "duration", 1, 0),
-                name = sheet_oca.drawing(frame, here) }
+  for frame, here in sheet_oca.frames(layer, where) do
+    list[#list + 1] = { frame = frame_of(frame, here, "frameNumber", 0) - start + 1,
+      length = frame_of(frame, here, "duration", 1, 0), name = sheet_oca.drawing(frame, here) }
   end
   columns.sort(list)
-  if not get(layer, what, "animated", true) then
+  if not get(layer, where, "animated", "boolean", true) then
     if list[1] then columns.add(column, 1, list[1].name) end
     return
   end
@@ -73,57 +66,50 @@ function sheet_oca.expose(column, layer, what, start)
   end
 end
 
-local function read_layers(state, list, folder, where)
-  for i, layer in ipairs(list) do
-    local what = ("%slayer %d"):format(where, i)
-    if type(layer) ~= "table" then
-      columns.fail("%s must be an object, got %s", what, fields.kind(layer))
-    end
-    local path = folder .. get(layer, what, "name", "")
-    if get(layer, what, "type", "paintlayer") == "grouplayer" then
-      read_layers(state, get(layer, what, "childLayers", {}), path .. "/", what .. ": ")
+local function read_layers(state, group, name, folder, where)
+  for layer, here in sheet_oca.layers(group, where, name) do
+    local path = folder .. get(layer, here, "name", "string", "")
+    local is_group, is_visible, opacity = sheet_oca.look(layer, here)
+    if is_group then
+      read_layers(state, layer, "childLayers", path .. "/", here)
     else
       if #state.layers == columns.most_layers then
-        columns.fail("%s: there are more than %d layers, which is the limit", what,
+        values.fail("%sthere are more than %d layers, which is the limit", here,
           columns.most_layers)
       end
       local column = columns.new(path)
-      column.look = { opacity = number_of(layer, what, "opacity", 1, 0, 1),
-        blend = get(layer, what, "blendingMode", "normal"),
-        visible = get(layer, what, "visible", true) and not get(layer, what, "reference", false) }
+      column.look = { opacity = opacity, visible = is_visible,
+                      blend = get(layer, here, "blendingMode", "string", "normal") }
       state.layers[#state.layers + 1] = column
-      sheet_oca.expose(column, layer, what, state.start)
+      sheet_oca.expose(column, layer, here, state.from)
     end
   end
 end
 
---- The frames a second of a document, its first frame and its last one.
-function sheet_oca.clip(document)
-  local what = "the document"
-  return { fps = number_of(document, what, "frameRate", 24, 1e-3, 1000),
-           from = frame_of(document, what, "startTime", 0, -columns.most_frames),
-           to = frame_of(document, what, "endTime", 240, -columns.most_frames) - 1 }
+--- An OCA document, and the size, the frames a second, and the first and the last frame of it.
+function sheet_oca.document(text)
+  local document, where = values.decode(text, "the document"), "the document: "
+  local function number(...) return values.number(document, where, ...) end
+  return document, { width = number("width", 1, columns.most_pixels, 1920),
+    height = number("height", 1, columns.most_pixels, 1080),
+    fps = number("frameRate", 1e-3, 1000, 24), from = frame_of(document, where, "startTime", 0),
+    to = frame_of(document, where, "endTime", 240) - 1 }
 end
 
 --- Raises { message = }.
 function sheet_oca.decode(text)
-  local document, problem = json.decode(text)
-  if document == nil then columns.fail("%s", problem) end
-  if type(document) ~= "table" or type(document.layers) ~= "table" then
-    columns.fail("it is not an OCA document: it has no list of layers")
+  local document, made = sheet_oca.document(text)
+  if type(document.layers) ~= "table" then
+    values.fail "it is not an OCA document: it has no list of layers"
   end
-  local what, clip = "the document", sheet_oca.clip(document)
-  local state = { layers = {}, start = clip.from }
-  read_layers(state, document.layers, "", "")
-  return { name = get(document, what, "name", ""), layers = state.layers, notes = {},
-           fps = clip.fps,
-           width = number_of(document, what, "width", 1920, 1, columns.most_pixels),
-           height = number_of(document, what, "height", 1080, 1, columns.most_pixels),
-           frames = columns.length(math.max(1, clip.to - clip.from + 1), state.layers, {}) }
+  made.name, made.layers, made.notes = get(document, "the document: ", "name", "string", ""), {}, {}
+  read_layers(made, document, "layers", "", "")
+  made.frames = columns.length(math.max(1, made.to - made.from + 1), made.layers, {})
+  return made
 end
 
 --- The document among the files of an OCA folder; nil: there is none.
-function sheet_oca.document(names)
+function sheet_oca.file(names)
   table.sort(names)
   for _, pattern in ipairs { "%.oca$", "%.json$" } do
     for _, name in ipairs(names) do

@@ -16,6 +16,7 @@
 -- left out where nothing changes; a line that begins with `#` is a comment.
 local columns = require "celspan.columns"
 local fields = require "celspan.fields"
+local values = require "celspan.values"
 
 local sheet_text = {}
 
@@ -24,8 +25,9 @@ local head = "celspan sheet 1"
 --- Whether a name needs no quotes.
 local function is_bare(text) return text:find "^[%w_.+%-\128-\255]+$" ~= nil and text ~= "-" end
 
-local escapes = { ["\\"] = "\\\\", ['"'] = '\\"', ["\n"] = "\\n", ["\r"] = "\\r", ["\t"] = "\\t" }
 local signs = { ["\\"] = "\\", ['"'] = '"', n = "\n", r = "\r", t = "\t" }
+local escapes = {}
+for sign, character in pairs(signs) do escapes[character] = "\\" .. sign end
 
 local function quote(text)
   return '"' .. text:gsub('[%c"\\]', function(sign)
@@ -37,51 +39,44 @@ local function word_of(text) return is_bare(text) and text or quote(text) end
 
 -- ---------------------------------------------------------------- reading
 
+local function fail(state, text, ...)
+  values.fail("line %d%s", state.number, text:format(...))
+end
+
 --- The character of an escape: the sign after the backslash, and up to two more digits.
-local function unescape(sign, more, number)
+local function unescape(state, sign, more)
   local code = tonumber(sign .. more)
   if sign:find "%d" and #more == 2 and code < 256 then return string.char(code) end
-  if not signs[sign] then
-    columns.fail("line %d: \\%s is not an escape; there are \\\\ \\\" \\n \\r \\t and \\ddd",
-      number, sign)
-  end
-  return signs[sign] .. more
+  return (signs[sign] or fail(state,
+    ": \\%s is not an escape; there are \\\\ \\\" \\n \\r \\t and \\ddd", sign)) .. more
 end
 
 --- A quoted text at `at`: returns the text and the position after it.
-local function read_quoted(line, at, number)
-  local from = at + 1
-  while true do
-    local stop = line:find('["\\]', from)
-    if not stop then columns.fail("line %d: a quote is not closed", number) end
-    if line:sub(stop, stop) == '"' then
-      local text = line:sub(at + 1, stop - 1):gsub("\\(.)(%d?%d?)", function(sign, more)
-        return unescape(sign, more, number)
-      end)
-      return text, stop + 1
-    end
-    from = stop + 2
-  end
+local function read_quoted(state, line, at)
+  local stop = at
+  repeat
+    local _, escaped = line:find('^[^"\\]*\\.', stop + 1)
+    stop = escaped or line:find('"', stop + 1, true) or fail(state, ": a quote is not closed")
+  until not escaped
+  local text = line:sub(at + 1, stop - 1):gsub("\\(.)(%d?%d?)", function(sign, more)
+    return unescape(state, sign, more)
+  end)
+  return text, stop + 1
 end
 
 --- The words of a line: { { text, is_quoted, marks }, ... }.
-local function read_words(line, number)
+local function read_words(state, line)
   local words, at = {}, line:find "%S"
   while at do
-    local word
-    if line:sub(at, at) == '"' then
-      local text, after = read_quoted(line, at, number)
-      local marks = line:match("^/(%a*)", after)
-      word = { text = text, is_quoted = true, marks = marks }
-      at = after + (marks and #marks + 1 or 0)
-      if line:find("^%S", at) then
-        columns.fail("line %d: a space is missing after a quote", number)
-      end
+    local word = { is_quoted = line:byte(at) == 34 }
+    if word.is_quoted then
+      word.text, at = read_quoted(state, line, at)
     else
-      local text, marks = line:match("^([^%s/]*)/?(%S*)", at)
-      word = { text = text, marks = marks ~= "" and marks or nil }
-      at = line:find("%s", at) or #line + 1
+      word.text, at = line:match("^([^%s/]*)()", at)
     end
+    local marks, after = line:match("^/(%S*)()", at)
+    word.marks, at = marks or "", after or at
+    if line:find("^%S", at) then fail(state, ": a space is missing after a quote") end
     words[#words + 1] = word
     at = line:find("%S", at)
   end
@@ -91,160 +86,132 @@ end
 local letters = {}
 for _, mark in ipairs(columns.marks) do letters[mark[2]] = mark[1] end
 
-local function add_marks(column, frame, marks, number)
-  for letter in marks:gmatch "." do
+local function read_cell(state, column, frame, word)
+  local text = word.text
+  if text == "" then fail(state, ": a drawing's name is empty") end
+  if word.is_quoted or text ~= "|" then
+    columns.add(column, frame, (word.is_quoted or text ~= "-") and text)
+  end
+  for letter in word.marks:gmatch "." do
     if not letters[letter] then
-      columns.fail("line %d: %q is not a mark; the marks are i, r, k, f, m and p", number, letter)
+      fail(state, ": %q is not a mark; the marks are i, r, k, f, m and p", letter)
     end
     columns.mark(column, frame, letters[letter])
   end
 end
 
---- A fast path for the cells of a frame's line without quotes, which are the most frequent ones.
-local plain = { ["|"] = true }
-
-local function read_cell(column, frame, word, number)
-  local text = word.text
-  if word.is_quoted or not plain[text] then
-    if text == "" then columns.fail("line %d: a drawing's name is empty", number) end
-    columns.add(column, frame, (word.is_quoted or text ~= "-") and text or false)
-  end
-  if word.marks then add_marks(column, frame, word.marks, number) end
-end
-
-local function read_frame(state, line, number)
-  local layers, i = state.sheet.layers, 0
-  local digits, rest = line:match "^%s*(%d+)()"
+--- Reads the cells of a frame; most lines of a long sheet have none but `|`.
+local function read_frame(state, line)
+  local layers, digits, rest = state.sheet.layers, line:match "^%s*(%d+)(.*)$"
   local frame = math.tointeger(tonumber(digits))
   if not frame or frame < 1 or frame > columns.most_frames then
-    columns.fail("line %d: frame %s; frames are numbered from 1 to %d", number, digits,
-      columns.most_frames)
+    fail(state, ": frame %s; frames are numbered from 1 to %d", digits, columns.most_frames)
   end
   if frame <= state.last then
-    columns.fail("line %d: frame %d follows frame %d; frames ascend", number, frame, state.last)
+    fail(state, ": frame %d follows frame %d; frames ascend", frame, state.last)
   end
   state.last = frame
-  -- most lines of a long sheet contain no changes
-  if line:sub(rest) == state.hold then return end
-  local is_hold = true
-  if line:find('["/]', rest) then
-    for place, word in ipairs(read_words(line:sub(rest), number)) do
-      i, is_hold = place, false
-      if layers[i] then read_cell(layers[i], frame, word, number) end
-    end
-  else
-    local add = columns.add
-    for text in line:gmatch("%S+", rest) do
-      i = i + 1
-      if text ~= "|" then
-        is_hold = false
-        if layers[i] then add(layers[i], frame, text ~= "-" and text or false) end
-      end
-    end
+  if rest == state.hold then return end
+  local words = read_words(state, rest)
+  if #words ~= #layers then
+    fail(state, " has %d cells; there are %d layers", #words, #layers)
   end
-  if i ~= #layers then
-    columns.fail("line %d has %d cells; there are %d layers", number, i, #layers)
-  end
-  if is_hold then state.hold = line:sub(rest) end
+  for i, word in ipairs(words) do read_cell(state, layers[i], frame, word) end
+  if not rest:find "[^%s|]" then state.hold = rest end
 end
 
-local function whole(word, what, number, most)
-  local value = word and math.tointeger(tonumber(word.text))
+local function whole(state, text, what, most)
+  local value = math.tointeger(tonumber(text))
   if not value or value < 1 or value > most then
-    columns.fail("line %d: %s must be a whole number from 1 to %d", number, what, most)
+    fail(state, ": %s must be a whole number from 1 to %d", what, most)
   end
   return value
 end
 
-local function text_at(words, i, what, number)
-  if not words[i] then columns.fail("line %d: %s is missing", number, what) end
-  return words[i].text
+local function text_at(state, words, i, what)
+  return words[i] and words[i].text or fail(state, ": %s is missing", what)
 end
 
 local readers = {}
 
-function readers.name(state, words, number)
-  state.sheet.name = text_at(words, 2, "a name", number)
+for _, name in ipairs { "name", "cut", "scene" } do
+  readers[name] = function(state, words)
+    state.sheet[name] = text_at(state, words, 2, "a " .. name)
+  end
 end
-function readers.cut(state, words, number) state.sheet.cut = text_at(words, 2, "a cut", number) end
-function readers.scene(state, words, number)
-  state.sheet.scene = text_at(words, 2, "a scene", number)
+function readers.fps(state, words)
+  state.sheet.fps = tonumber(text_at(state, words, 2, "the frame rate"))
+    or fail(state, ": fps must be a number")
 end
-function readers.fps(state, words, number)
-  local fps = tonumber(text_at(words, 2, "the frame rate", number))
-  if not fps then columns.fail("line %d: fps must be a number", number) end
-  state.sheet.fps = fps
+function readers.frames(state, words)
+  state.sheet.frames = whole(state, words[2] and words[2].text, "frames", columns.most_frames)
 end
-function readers.frames(state, words, number)
-  state.sheet.frames = whole(words[2], "frames", number, columns.most_frames)
+function readers.size(state, words)
+  for i, side in ipairs { "width", "height" } do
+    local word = words[i + 1]
+    state.sheet[side] = whole(state, word and word.text, "the " .. side, columns.most_pixels)
+  end
 end
-function readers.size(state, words, number)
-  state.sheet.width = whole(words[2], "the width", number, columns.most_pixels)
-  state.sheet.height = whole(words[3], "the height", number, columns.most_pixels)
-end
-function readers.layers(state, words, number)
-  if state.has_layers then columns.fail("line %d: the layers are defined twice", number) end
+function readers.layers(state, words)
+  if state.has_layers then fail(state, ": the layers are defined twice") end
   if #words - 1 > columns.most_layers then
-    columns.fail("line %d: there are more than %d layers, which is the limit", number,
-      columns.most_layers)
+    fail(state, ": there are more than %d layers, which is the limit", columns.most_layers)
   end
   state.has_layers = true
   for i = 2, #words do state.sheet.layers[i - 1] = columns.new(words[i].text) end
 end
 
 --- note KIND COLUMN FROM-TO [SPEAKER] TEXT
-function readers.note(state, words, number)
-  local from, to = text_at(words, 4, "the frames", number):match "^(%d+)%-?(%d*)$"
+function readers.note(state, words)
+  local from, to = text_at(state, words, 4, "the frames"):match "^(%d+)%-?(%d*)$"
   if not from or #words < 5 or #words > 6 then
-    columns.fail("line %d: a note is: note KIND COLUMN FROM-TO [SPEAKER] TEXT", number)
+    fail(state, ": a note is: note KIND COLUMN FROM-TO [SPEAKER] TEXT")
   end
   local note = { kind = words[2].text, column = words[3].text,
-    from = whole({ text = from }, "a frame", number, columns.most_frames),
-    to = whole({ text = to ~= "" and to or from }, "a frame", number, columns.most_frames),
+    from = whole(state, from, "a frame", columns.most_frames),
+    to = whole(state, to ~= "" and to or from, "a frame", columns.most_frames),
     speaker = words[6] and words[5].text, text = words[#words].text }
-  if note.to < note.from then columns.fail("line %d: the note ends before it begins", number) end
+  if note.to < note.from then fail(state, ": the note ends before it begins") end
   table.insert(state.sheet.notes, note)
 end
 
 --- Whether a text is a sheet in this form, by its first line.
 function sheet_text.accepts(text) return text:find("^" .. head .. "%s") ~= nil end
 
+local function read_line(state, line)
+  if line:find "^%s*%d" and state.has_layers then return read_frame(state, line) end
+  local words = read_words(state, line)
+  local read = not words[1].is_quoted and readers[words[1].text]
+  if not read then
+    fail(state, " begins with %q; it must be the number of a frame, after layers, or "
+      .. "cut, fps, frames, layers, name, note, scene, size", words[1].text)
+  end
+  read(state, words)
+end
+
 --- Raises { message = }.
 function sheet_text.decode(text)
   columns.check_text(text, "the file")
   local lines = columns.lines(text)
-  if not (lines[1] or ""):find("^" .. head .. "%s*$") then
-    columns.fail("line 1 is not %q", head)
-  end
+  if not (lines[1] or ""):find("^" .. head .. "%s*$") then values.fail("line 1 is not %q", head) end
   local sheet = { name = "", cut = "", scene = "", fps = 24, frames = 1, layers = {}, notes = {} }
   local state = { sheet = sheet, last = 0 }
   for number = 2, #lines do
-    local line = lines[number]
-    if line:find "^%s*%d" and state.has_layers then
-      read_frame(state, line, number)
-    elseif line:find "^%s*[^%s#]" then
-      local words = read_words(line, number)
-      local read = not words[1].is_quoted and readers[words[1].text]
-      if not read then
-        columns.fail("line %d begins with %q; it must be the number of a frame, after layers, or "
-          .. "cut, fps, frames, layers, name, note, scene, size", number, words[1].text)
-      end
-      read(state, words, number)
-    end
+    state.number = number
+    if lines[number]:find "^%s*[^%s#]" then read_line(state, lines[number]) end
   end
-  sheet.frames = math.max(sheet.frames, state.last,
-    columns.length(sheet.frames, sheet.layers, sheet.notes))
+  sheet.frames = columns.length(math.max(sheet.frames, state.last), sheet.layers, sheet.notes)
   return sheet
 end
 
 -- ---------------------------------------------------------------- writing
 
 local function marks_of(marks)
-  local list = {}
+  local text = "/"
   for _, mark in ipairs(columns.marks) do
-    if marks[mark[1]] then list[#list + 1] = mark[2] end
+    if marks[mark[1]] then text = text .. mark[2] end
   end
-  return #list > 0 and "/" .. table.concat(list) or ""
+  return text
 end
 
 local function pad(text, width)
@@ -279,19 +246,15 @@ local function width_of(column)
   return width + most
 end
 
---- The cell of a column at a frame, unless it is the plain `|`.
+--- The cell of a column at a frame, of which `place` is the next change.
 local function cell_of(column, place, frame)
-  local marks = column.marks[frame]
-  local text = "|"
+  local text = frame == 1 and "-" or "|"
   if column.at[place] == frame then
     local name = column.names[place]
     text = name and word_of(name) or "-"
-  elseif frame == 1 then
-    text = "-"
-  elseif not marks then
-    return nil
   end
-  return text .. (marks and marks_of(marks) or "")
+  local marks = column.marks[frame]
+  return marks and text .. marks_of(marks) or text
 end
 
 --- Larger sheets are written without the lines where nothing changes.
@@ -299,46 +262,40 @@ local WHOLE_CELLS = 1000000
 
 --- The frames that have a line, ascending.
 local function frames_of(sheet)
-  local list, is_there = {}, {}
+  local list, is_there = {}, { true }
   if sheet.frames * (#sheet.layers + 1) <= WHOLE_CELLS then
     for frame = 1, sheet.frames do list[frame] = frame end
     return list
   end
-  local function add(frame)
-    if not is_there[frame] then is_there[frame], list[#list + 1] = true, frame end
-  end
-  add(1)
   for _, column in ipairs(sheet.layers) do
-    for _, frame in ipairs(column.at) do add(frame) end
-    for frame in pairs(column.marks) do add(frame) end
+    for _, frame in ipairs(column.at) do is_there[frame] = true end
+    for frame in pairs(column.marks) do is_there[frame] = true end
   end
+  for frame in pairs(is_there) do list[#list + 1] = frame end
   table.sort(list)
   return list
 end
 
 --- Raises { message = } if the text would be too long.
 function sheet_text.encode(sheet)
-  local lines, layers = write_head(sheet), sheet.layers
-  local words, at, holds, widths = { pad("layers", 8) }, {}, {}, {}
+  local lines, layers, frames = write_head(sheet), sheet.layers, frames_of(sheet)
+  local words, at, widths, holds = { pad("layers", 8) }, {}, {}, {}
+  columns.check_cells(#frames, layers)
   for i, column in ipairs(layers) do
     widths[i], at[i] = width_of(column), 1
-    words[i + 1] = pad(word_of(column.name), widths[i])
-    holds[i] = pad("|", widths[i])
+    words[i + 1], holds[i] = pad(word_of(column.name), widths[i]), pad("|", widths[i])
   end
   lines[#lines + 1] = table.concat(words, "  ")
-  local frames = frames_of(sheet)
-  columns.check_cells(#frames, layers)
   for _, frame in ipairs(frames) do
     words[1] = ("%8d"):format(frame)
     for i, column in ipairs(layers) do
       local cell = cell_of(column, at[i], frame)
-      words[i + 1] = cell and pad(cell, widths[i]) or holds[i]
+      words[i + 1] = cell == "|" and holds[i] or pad(cell, widths[i])
       if column.at[at[i]] == frame then at[i] = at[i] + 1 end
     end
     lines[#lines + 1] = table.concat(words, "  ")
   end
-  lines[#lines + 1] = ""
-  return table.concat(lines, "\n")
+  return table.concat(lines, "\n") .. "\n"
 end
 
 return fields.seal("sheet_text", sheet_text)

@@ -6,6 +6,8 @@
 local columns = require "celspan.columns"
 local fields = require "celspan.fields"
 local json = require "celspan.json"
+local ordered = require "celspan.ordered"
+local values = require "celspan.values"
 
 local xdts = {}
 
@@ -16,73 +18,37 @@ local numbers = { dialogue = 3, camera = 5 }
 local ticks = { SYMBOL_TICK_1 = "inbetween", SYMBOL_TICK_2 = "reverse" }
 local options = { OPTION_KEYFRAME = "key", OPTION_REFERENCEFRAME = "reference" }
 
--- ---------------------------------------------------------------- values of the document
-
---- object[name], or the default. path: the place of the object, for messages.
-local function get(object, path, name, wanted, default)
-  local value = object[name]
-  if value == nil or value == json.null then
-    if default == nil then columns.fail("%s.%s is missing", path, name) end
-    return default
-  end
-  if type(value) ~= wanted then
-    columns.fail("%s.%s must be a %s, got %s", path, name, wanted == "table" and "list" or wanted,
-      fields.kind(value))
-  end
-  return value
-end
-
-local function whole(object, path, name, least, most, default)
-  local number = get(object, path, name, "number", default)
-  if number ~= math.floor(number) or number < least or number > most then
-    columns.fail("%s.%s is %s; it must be a whole number from %d to %d", path, name,
-      fields.shown(number), least, most)
-  end
-  return math.tointeger(number)
-end
-
---- Each object of a list, with its path.
-local function each(object, path, name, default)
-  local list = get(object, path, name, "table", default)
-  local i = 0
-  return function()
-    i = i + 1
-    local item = list[i]
-    if item == nil then return nil end
-    local here = ("%s.%s[%d]"):format(path, name, i)
-    if type(item) ~= "table" or item == json.null then
-      columns.fail("%s must be an object, got %s", here, fields.kind(item))
-    end
-    return item, here
-  end
-end
-
-local function text_of(value, path)
-  if math.type(value) == "integer" or type(value) == "number" and value == math.floor(value) then
-    return ("%d"):format(value)
-  end
-  if type(value) ~= "string" then
-    columns.fail("%s must be a string, got %s", path, fields.kind(value))
-  end
-  return columns.check_text(value, path)
-end
-
 -- ---------------------------------------------------------------- reading
+
+--- The texts of a list; programs write whole numbers among them.
+local function texts_of(object, where, name)
+  local list = {}
+  for i, value in ipairs(values.get(object, where, name, "table", {})) do
+    local what = ("%s%s[%d]"):format(where, name, i)
+    local whole = type(value) == "number" and math.tointeger(value)
+    local text = whole and tostring(whole) or value
+    if type(text) ~= "string" then
+      values.fail("%s must be a string, got %s", what, fields.kind(value))
+    end
+    list[i] = columns.check_text(text, what)
+  end
+  return list
+end
+
+local function field_number(object, where)
+  return values.whole(object, where, "fieldId", -2 ^ 31, 2 ^ 31)
+end
 
 --- The entries of a track in order: { frame, values, options }. Frames are counted from 1; an entry
 --- before the sheet is valid in its first frame.
-local function entries_of(track, path)
-  local list = {}
-  for frame, here in each(track, path, "frames", {}) do
-    local number = whole(frame, here, "frame", -columns.most_frames, columns.most_frames)
-    for data, there in each(frame, here, "data", {}) do
-      if whole(data, there, "id", -2 ^ 31, 2 ^ 31, 0) == 0 then
-        local values = {}
-        for i, value in ipairs(get(data, there, "values", "table", {})) do
-          values[i] = text_of(value, ("%s.values[%d]"):format(there, i))
-        end
-        list[#list + 1] = { frame = number, values = values,
-                            options = get(data, there, "options", "table", {}) }
+local function entries_of(track, where)
+  local list, most = {}, columns.most_frames
+  for frame, here in values.each(track, where, "frames", {}) do
+    local number = values.whole(frame, here, "frame", -most, most)
+    for data, there in values.each(frame, here, "data", {}) do
+      if values.whole(data, there, "id", -2 ^ 31, 2 ^ 31, 0) == 0 then
+        list[#list + 1] = { frame = number, values = texts_of(data, there, "values"),
+                            options = values.get(data, there, "options", "table", {}) }
       end
     end
   end
@@ -91,8 +57,8 @@ local function entries_of(track, path)
   return list
 end
 
-local function read_cells(column, track, path)
-  for _, entry in ipairs(entries_of(track, path)) do
+local function read_cells(column, entries)
+  for _, entry in ipairs(entries) do
     local value = entry.values[1]
     if ticks[value] then
       columns.mark(column, entry.frame, ticks[value])
@@ -109,117 +75,92 @@ end
 
 --- A note lasts until the change that ends it. If only another note or nothing follows, it lasts
 --- until its last hyphen, and without hyphens until the end of the sheet.
-local function read_notes(notes, kind, name, track, path)
+local function read_notes(notes, kind, name, entries)
   local note, hyphen
   local function close(frame, is_empty)
-    if note and frame then
-      note.to = (is_empty or not hyphen) and frame - 1 or hyphen
-    elseif note then
-      note.to = hyphen
-    end
-    if note and note.to then note.to = math.max(note.from, note.to) end
+    if not note then return end
+    local to = frame and (is_empty or not hyphen) and frame - 1 or hyphen
+    note.to = to and math.max(note.from, to)
     note, hyphen = nil, nil
   end
-  for _, entry in ipairs(entries_of(track, path)) do
+  for _, entry in ipairs(entries) do
     local first = entry.values[1]
     if first == "SYMBOL_HYPHEN" then
       hyphen = note and entry.frame
-    elseif first == "SYMBOL_NULL_CELL" then
-      close(entry.frame, true)
     elseif first then
-      close(entry.frame, false)
-      note = { kind = kind, column = name, from = entry.frame }
-      if kind == "dialogue" and entry.values[2] then
-        note.speaker, note.text = first, table.concat(entry.values, "\n", 2)
-      else
-        note.text = table.concat(entry.values, "\n")
-      end
+      close(entry.frame, first == "SYMBOL_NULL_CELL")
+    end
+    if first and first ~= "SYMBOL_HYPHEN" and first ~= "SYMBOL_NULL_CELL" then
+      local speaker = kind == "dialogue" and entry.values[2] and first or nil
+      note = { kind = kind, column = name, from = entry.frame, speaker = speaker,
+               text = table.concat(entry.values, "\n", speaker and 2 or 1) }
       notes[#notes + 1] = note
     end
   end
   close()
 end
 
---- The names of the tracks of each field, from the headers.
-local function read_headers(tables, path)
-  local headers = {}
-  for header, here in each(tables, path, "timeTableHeaders") do
-    local names, field = {}, whole(header, here, "fieldId", -2 ^ 31, 2 ^ 31)
-    for i, name in ipairs(get(header, here, "names", "table", {})) do
-      names[i] = text_of(name, ("%s.names[%d]"):format(here, i))
-    end
-    headers[field] = names
-  end
-  return headers
+--- The column of cells for a track. Tracks without a name have their numbers, from 1.
+local function column_at(state, place, where)
+  if state.has_cells[place] then values.fail("%strack %d is a duplicate", where, place - 1) end
+  state.has_cells[place] = true
+  for i = #state.layers + 1, place do state.layers[i] = columns.new(("track %d"):format(i)) end
+  return state.layers[place]
 end
 
-local function check_places(number, path)
-  if number > columns.most_layers then
-    columns.fail("%s: there are more than %d tracks, which is the limit", path,
-      columns.most_layers)
-  end
-end
-
-local function read_tracks(state, field, id, path)
+local function read_tracks(state, field, id, where)
   local names = state.headers[id] or {}
-  for track, here in each(field, path, "tracks", {}) do
-    local place = whole(track, here, "trackNo", 0, columns.most_layers - 1) + 1
+  for track, here in values.each(field, where, "tracks", {}) do
+    local place = values.whole(track, here, "trackNo", 0, columns.most_layers - 1) + 1
     if id == CELLS then
-      if state.has_cells[place] then
-        columns.fail("%s: track %d is a duplicate", here, place - 1)
-      end
-      state.has_cells[place] = true
-      for i = #state.layers + 1, place do state.layers[i] = columns.new(("track %d"):format(i)) end
-      read_cells(state.layers[place], track, here)
+      read_cells(column_at(state, place, here), entries_of(track, here))
     else
       read_notes(state.notes, kinds[id] or ("field %d"):format(id),
-        names[place] or ("track %d"):format(place), track, here)
+        names[place] or ("track %d"):format(place), entries_of(track, here))
     end
   end
+  return state.notes
 end
 
---- Reads a field that the format does not define as notes if it has their form, and ignores it
---- otherwise.
-local function try_tracks(state, field, id, path)
-  local count = #state.notes
-  local good, problem = pcall(read_tracks, state, field, id, path)
-  if not good and type(problem) ~= "table" then error(problem, 0) end
-  for i = #state.notes, good and #state.notes + 1 or count + 1, -1 do state.notes[i] = nil end
-end
-
-local function read_fields(tables, path)
-  local state = { headers = read_headers(tables, path), layers = {}, notes = {}, has_cells = {} }
-  for i, name in ipairs(state.headers[CELLS] or {}) do
-    check_places(i, path)
-    state.layers[i] = columns.new(name)
+--- The columns and the notes of a table. A field that the format does not define is read as notes
+--- if it has their form, and ignored otherwise.
+local function read_fields(tables, where)
+  local state = { headers = {}, layers = {}, notes = {}, has_cells = {} }
+  for header, here in values.each(tables, where, "timeTableHeaders") do
+    state.headers[field_number(header, here)] = texts_of(header, here, "names")
   end
-  for field, here in each(tables, path, "fields", {}) do
-    local id = whole(field, here, "fieldId", -2 ^ 31, 2 ^ 31)
-    local is_known = id == CELLS or kinds[id]
-    if is_known then read_tracks(state, field, id, here) else try_tracks(state, field, id, here) end
+  local names = state.headers[CELLS] or {}
+  if #names > columns.most_layers then
+    values.fail("%sthere are more than %d tracks, which is the limit", where, columns.most_layers)
+  end
+  for i, name in ipairs(names) do state.layers[i] = columns.new(name) end
+  for field, here in values.each(tables, where, "fields", {}) do
+    local id = field_number(field, here)
+    if id == CELLS or kinds[id] then
+      read_tracks(state, field, id, here)
+    else
+      local apart = { headers = state.headers, notes = {} }
+      local found = fields.caught(read_tracks, apart, field, id, here) or {}
+      table.move(found, 1, #found, #state.notes + 1, state.notes)
+    end
   end
   return state.layers, state.notes
 end
 
---- The size of the drawings; nothing if the table has none.
-local function read_size(tables, path)
-  if tables.width == nil and tables.height == nil then return end
-  local function side(name) return whole(tables, path, name, 1, columns.most_pixels) end
-  return side "width", side "height"
-end
-
-local function read_table(document, tables, path)
-  local sheet = { name = get(tables, path, "name", "string", ""),
-                  fps = get(tables, path, "frameRate", "number", 24) }
-  local layers, notes = read_fields(tables, path)
-  sheet.layers, sheet.notes = layers, notes
-  sheet.width, sheet.height = read_size(tables, path)
-  local told = whole(tables, path, "duration", 1, columns.most_frames)
-  sheet.frames = columns.length(told, layers, notes)
-  local header = get(document, "the sheet", "header", "table", {})
-  sheet.cut = get(header, "header", "cut", "string", "")
-  sheet.scene = get(header, "header", "scene", "string", "")
-  return sheet
+local function read_table(document, tables, where)
+  local layers, notes = read_fields(tables, where)
+  local header = values.get(document, "", "header", "table", {})
+  local has_size = tables.width ~= nil or tables.height ~= nil
+  local function side(name)
+    return has_size and values.whole(tables, where, name, 1, columns.most_pixels) or nil
+  end
+  return { name = values.get(tables, where, "name", "string", ""), layers = layers, notes = notes,
+    cut = values.get(header, "header.", "cut", "string", ""),
+    scene = values.get(header, "header.", "scene", "string", ""),
+    fps = values.get(tables, where, "frameRate", "number", 24),
+    width = side "width", height = side "height",
+    frames = columns.length(values.whole(tables, where, "duration", 1, columns.most_frames), layers,
+      notes) }
 end
 
 --- Whether a text is an XDTS, by its first line.
@@ -228,76 +169,62 @@ function xdts.accepts(text) return text:find("^%s*" .. head) ~= nil end
 --- which: the number or name of the table to read. Raises { message = }.
 function xdts.decode(text, which)
   local first, rest = text:match "^([^\r\n]*)(.*)$"
-  if first ~= head then columns.fail("line 1 is not %q", head) end
-  local document, problem = json.decode(rest)
-  if document == nil then columns.fail("%s", problem) end
-  if type(document) ~= "table" or document == json.null then
-    columns.fail("the sheet must be an object, got %s", fields.kind(document))
-  end
-  local version = get(document, "the sheet", "version", "number")
+  if first ~= head then values.fail("line 1 is not %q", head) end
+  local document, count = values.decode(rest, "the sheet"), 0
+  local version = values.get(document, "", "version", "number")
   if version ~= 5 then
-    columns.fail("version is %s; version 5 can be read", fields.shown(version))
+    values.fail("version is %s; version 5 can be read", fields.shown(version))
   end
-  local tables = {}
-  for item, path in each(document, "the sheet", "timeTables") do
-    tables[#tables + 1] = { item, path:gsub("^the sheet%.", "") }
-    local name = item.name
-    if which == #tables or which == name then
-      return read_table(document, item, tables[#tables][2])
-    end
+  for item, where in values.each(document, "", "timeTables") do
+    count = count + 1
+    if which == count or which == item.name then return read_table(document, item, where) end
   end
-  columns.fail("timeTables has %d tables, and none of them is %s", #tables,
+  values.fail("timeTables has %d tables, and none of them is %s", count,
     type(which) == "string" and ("%q"):format(which) or fields.shown(which))
 end
 
 -- ---------------------------------------------------------------- writing
 
-local escapes = { ['"'] = '\\"', ["\\"] = "\\\\", ["\n"] = "\\n", ["\r"] = "\\r", ["\t"] = "\\t" }
-
-local function quote(text)
-  return '"' .. text:gsub('[%c"\\]', function(sign)
-    return escapes[sign] or sign ~= "\127" and ("\\u%04x"):format(sign:byte()) or nil
-  end) .. '"'
+local function quoted(list)
+  local texts = {}
+  for i, text in ipairs(list) do texts[i] = json.encode(text) end
+  return table.concat(texts, ",")
 end
 
-local function entry_of(frame, values, more)
-  for i, value in ipairs(values) do values[i] = quote(value) end
-  return ('{"frame":%d,"data":[{"id":0,"values":[%s]%s}]}'):format(frame - 1,
-    table.concat(values, ","), more or "")
+--- What a track says of a frame: texts, and the names of options, if there are some.
+local function entry_of(frame, texts, more)
+  return ('{"frame":%d,"data":[{"id":0,"values":[%s]%s}]}'):format(frame - 1, quoted(texts),
+    more and more[1] and (',"options":[%s]'):format(quoted(more)) or "")
 end
 
-local function options_of(marks)
+--- The options, or the ticks, for the marks of a frame.
+local function names_for(known, marks)
   local list = {}
-  if marks and marks.key then list[#list + 1] = '"OPTION_KEYFRAME"' end
-  if marks and marks.reference then list[#list + 1] = '"OPTION_REFERENCEFRAME"' end
-  return #list > 0 and (',"options":[%s]'):format(table.concat(list, ",")) or nil
+  for _, name in ipairs(ordered.names(known)) do
+    if marks and marks[known[name]] then list[#list + 1] = name end
+  end
+  return list
 end
 
 --- A tick continues the previous cell, so a frame with a change has no tick.
-local function tick_of(marks)
-  return marks and (marks.inbetween and "SYMBOL_TICK_1" or marks.reverse and "SYMBOL_TICK_2")
-end
-
 local function write_cells(column, frames)
-  local list = {}
+  local list, lines = {}, {}
   for i, frame in ipairs(column.at) do
     list[i] = { frame = frame, value = column.names[i] or "SYMBOL_NULL_CELL" }
   end
   for frame, marks in pairs(column.marks) do
-    local tick, more = tick_of(marks), options_of(marks)
-    local place = columns.find(column, frame)
-    if more and column.at[place] ~= frame then tick = tick or "SYMBOL_HYPHEN" end
-    if tick then list[#list + 1] = { frame = frame, value = tick } end
+    local tick, place = names_for(ticks, marks)[1], columns.find(column, frame)
+    local has_more = names_for(options, marks)[1] and column.at[place] ~= frame
+    local value = tick or has_more and "SYMBOL_HYPHEN"
+    if value then list[#list + 1] = { frame = frame, value = value } end
   end
   columns.sort(list)
-  local lines = {}
   for i, entry in ipairs(list) do
     local is_last = not list[i + 1] or list[i + 1].frame ~= entry.frame
     lines[i] = entry_of(entry.frame, { entry.value },
-      is_last and options_of(column.marks[entry.frame]) or nil)
+      is_last and names_for(options, column.marks[entry.frame]))
   end
-  local count = #column.at
-  if count > 0 and column.names[count] then
+  if column.names[#column.at] then
     lines[#lines + 1] = entry_of(frames + 1, { "SYMBOL_NULL_CELL" })
   end
   return lines
@@ -317,63 +244,53 @@ local function write_note(lines, note, frames)
   lines[#lines + 1] = entry_of(to + 1, { "SYMBOL_NULL_CELL" })
 end
 
---- Notes by field and column: { id, names, tracks }, in order of the numbers of the fields.
-local function group_notes(sheet)
-  local groups, order = {}, {}
+--- The fields of notes in order of their numbers, each with the names and the lines of its tracks.
+local function fields_of_notes(sheet)
+  local by_id, list = {}, {}
   for _, note in ipairs(sheet.notes) do
     local id = numbers[note.kind] or math.tointeger(tonumber(note.kind:match "^field (%-?%d+)$"))
+    if id and not by_id[id] then
+      by_id[id] = { id = id, names = {}, tracks = {}, places = {} }
+      list[#list + 1] = by_id[id]
+    end
     if id then
-      local group = groups[id]
-      if not group then
-        group = { id = id, names = {}, tracks = {} }
-        groups[id], order[#order + 1] = group, group
-      end
-      local lines = group.tracks[note.column]
-      if not lines then
-        lines = {}
-        group.names[#group.names + 1], group.tracks[note.column] = note.column, lines
-      end
-      write_note(lines, note, sheet.frames)
+      local field = by_id[id]
+      local place = field.places[note.column] or #field.names + 1
+      field.places[note.column], field.names[place] = place, note.column
+      field.tracks[place] = field.tracks[place] or {}
+      write_note(field.tracks[place], note, sheet.frames)
     end
   end
-  table.sort(order, function(a, b) return a.id < b.id end)
-  return order
+  table.sort(list, function(a, b) return a.id < b.id end)
+  return list
 end
 
-local function write_field(id, tracks)
-  return ('{"fieldId":%d,"tracks":[\n%s]}'):format(id, table.concat(tracks, ",\n"))
-end
-
-local function write_track(place, lines)
-  return ('{"trackNo":%d,"frames":[\n%s]}'):format(place - 1, table.concat(lines, ",\n"))
-end
-
-local function write_header(id, names)
-  local list = {}
-  for i, name in ipairs(names) do list[i] = quote(name) end
-  return ('{"fieldId":%d,"names":[%s]}'):format(id, table.concat(list, ","))
+local function write_field(field)
+  local tracks = {}
+  for i, lines in ipairs(field.tracks) do
+    tracks[i] = ('{"trackNo":%d,"frames":[\n%s]}'):format(i - 1, table.concat(lines, ",\n"))
+  end
+  return ('{"fieldId":%d,"tracks":[\n%s]}'):format(field.id, table.concat(tracks, ",\n"))
 end
 
 function xdts.encode(sheet)
-  local names, tracks = {}, {}
+  local cells, headers, body = { id = CELLS, names = {}, tracks = {} }, {}, {}
   for i, column in ipairs(sheet.layers) do
-    names[i] = column.name
-    tracks[i] = write_track(i, write_cells(column, sheet.frames))
+    cells.names[i], cells.tracks[i] = column.name, write_cells(column, sheet.frames)
   end
-  local headers, body = { write_header(CELLS, names) }, { write_field(CELLS, tracks) }
-  for _, group in ipairs(group_notes(sheet)) do
-    local list = {}
-    for i, name in ipairs(group.names) do list[i] = write_track(i, group.tracks[name]) end
-    headers[#headers + 1] = write_header(group.id, group.names)
-    body[#body + 1] = write_field(group.id, list)
+  local list = fields_of_notes(sheet)
+  table.insert(list, 1, cells)
+  for i, field in ipairs(list) do
+    headers[i] = ('{"fieldId":%d,"names":[%s]}'):format(field.id, quoted(field.names))
+    body[i] = write_field(field)
   end
   local size = sheet.width and sheet.height
     and ('"width":%d,"height":%d,'):format(sheet.width, sheet.height) or ""
   return ('%s\n{"version":5,"header":{"cut":%s,"scene":%s},"timeTables":[\n'
     .. '{"name":%s,"duration":%d,"frameRate":%.14g,%s'
     .. '"timeTableHeaders":[%s],\n"fields":[\n%s]}]}\n')
-    :format(head, quote(sheet.cut), quote(sheet.scene), quote(sheet.name), sheet.frames,
-      sheet.fps, size, table.concat(headers, ","), table.concat(body, ",\n"))
+    :format(head, json.encode(sheet.cut), json.encode(sheet.scene), json.encode(sheet.name),
+      sheet.frames, sheet.fps, size, table.concat(headers, ","), table.concat(body, ",\n"))
 end
 
 return fields.seal("xdts", xdts)

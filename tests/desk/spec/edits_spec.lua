@@ -398,10 +398,10 @@ describe("OpenTimelineIO", function()
     end
     wrong("has no OpenTimelineIO timeline", "[]")
     wrong("has no track of pictures", timeline())
-    wrong('track 1, item 1 "hall": the duration must be a number from 0 to 1e+12, got -3',
+    wrong('track 1, item 1 "hall": the duration: value must be a number from 0 to 1e+12, got -3',
       timeline(item("Clip.2", "hall", range(0, -3))))
-    wrong('track 1, item 1 "hall": the start_time must be a number', timeline(item("Clip.2", "hall",
-      range(1e300, 3))))
+    wrong('track 1, item 1 "hall": the start_time: value must be a number', timeline(item("Clip.2",
+      "hall", range(1e300, 3))))
     wrong('track 1, item 1 "hall": the duration: rate must be', timeline(item("Clip.2", "hall",
       range(0, 3, 0))))
     wrong('track 1, item 1 "hal": there is no film \'hal\'; did you mean \'hall\'?',
@@ -473,7 +473,7 @@ describe("a storyboard", function()
       assert.is_nil(film)
       assert.truthy(found:find("board.storyboarder: " .. message, 1, true), found)
     end
-    wrong("board 3: duration must be a number from 0 to 1e+08, got -5", function(document)
+    wrong("board 3: duration must be a number from 0 to 100000000, got -5", function(document)
       document.boards[3].duration = -5
     end)
     wrong("board 2: opacity must be", function(document)
@@ -482,7 +482,7 @@ describe("a storyboard", function()
     wrong("fps must be", function(document) document.fps = 1e9 end)
     wrong("is no storyboard: it has no boards", function(document) document.boards = nil end)
     wrong("has no board that lasts a frame", function(document) document.boards = { list = {} } end)
-    wrong("board 1 is no object", function(document) document.boards[1] = 4 end)
+    wrong("board 1 must be an object, got number", function(document) document.boards[1] = 4 end)
     refused("board.storyboarder: ", "board.storyboarder", '{"boards":[')
     local _, shots = read("board.storyboarder",
       '{"boards":[{"layers":{"ink":{"url":"../x.png"}}}]}')

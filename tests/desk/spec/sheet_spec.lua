@@ -155,23 +155,25 @@ describe("an XDTS", function()
     local cases = {
       [head .. "{\n]"] = "line 3: a name in quotes is missing",
       [head .. "3"] = "the sheet must be an object, got number",
-      [head .. "{}"] = "the sheet.version is missing",
+      [head .. "{}"] = "version is missing",
       [head .. '{"version":6}'] = "version is 6; version 5 can be read",
-      [head .. '{"version":5}'] = "the sheet.timeTables is missing",
+      [head .. '{"version":5}'] = "timeTables is missing",
       [head .. '{"version":5,"timeTables":[]}'] = "timeTables has 0 tables",
       [head .. '{"version":5,"timeTables":[null]}'] = "timeTables[1] must be an object",
       [head .. '{"version":5,"timeTables":[{"timeTableHeaders":[]}]}'] =
         "timeTables[1].duration is missing",
       [head .. '{"version":5,"timeTables":[{"duration":0,"timeTableHeaders":[]}]}'] =
-        "timeTables[1].duration is 0",
+        "timeTables[1].duration must be a whole number from 1 to 10000000, got 0",
       [head .. '{"version":5,"timeTables":[{"duration":1e300,"timeTableHeaders":[]}]}'] =
-        "timeTables[1].duration is 1e+300",
+        "timeTables[1].duration must be a whole number from 1 to 10000000, got 1e+300",
       [xdts_of(3, '{"trackNo":0},{"trackNo":0}')] =
         "timeTables[1].fields[1].tracks[2]: track 0 is a duplicate",
-      [xdts_of(3, '{"trackNo":-1}')] = "timeTables[1].fields[1].tracks[1].trackNo is -1",
+      [xdts_of(3, '{"trackNo":-1}')] =
+        "timeTables[1].fields[1].tracks[1].trackNo must be a whole number from 0 to "
+        .. "65535, got -1",
       [xdts_of(3, ""):gsub('"name"', '"width":640,"name"')] = "timeTables[1].height is missing",
       [xdts_of(3, ""):gsub('"name"', '"width":0,"height":9,"name"')] =
-        "timeTables[1].width is 0; it must be a whole number from 1 to 1048576",
+        "timeTables[1].width must be a whole number from 1 to 1048576, got 0",
       [xdts_of(3, '{"trackNo":0,"frames":[{"frame":"x"}]}')] =
         "timeTables[1].fields[1].tracks[1].frames[1].frame must be a number, got string",
       [xdts_of(3, '{"trackNo":0,"frames":[{"frame":0,"data":[{"values":[true]}]}]}')] =
@@ -311,8 +313,10 @@ describe("an OCA folder", function()
     for wanted, bad in pairs {
       ["layer 1: frame 1: frameNumber must be a number, got string"] =
         document:gsub('"frameNumber":4', '"frameNumber":"4"'),
-      ["layer 2: layer 1: opacity is 5"] = document:gsub('"opacity":0.5', '"opacity":5'),
-      ["frameRate is 0"] = document:gsub('"frameRate":12', '"frameRate":0'),
+      ["layer 2: layer 1: opacity must be a number from 0 to 1, got 5"] =
+        document:gsub('"opacity":0.5', '"opacity":5'),
+      ["frameRate must be a number from 0.001 to 1000, got 0"] =
+        document:gsub('"frameRate":12', '"frameRate":0'),
       ["not an OCA document"] = '{"a":1}',
     } do
       local s, message = read("bad.json", bad)
@@ -380,7 +384,7 @@ describe("a sheet", function()
         { layers = { "A" }, drawings = { A = { 1 } } },
       ["its frame rate is 0"] = { fps = 0 },
       ["frames must be a whole number"] = { frames = 1.5 },
-      ["notes[1]: text must be a string, got nil"] = {
+      ["notes[1]: text is missing"] = {
         notes = { { kind = "camera", column = "", from = 1 } } },
       ["a drawing's name is empty"] = { layers = { "A" }, drawings = { A = { "" } } },
     } do
