@@ -166,7 +166,7 @@ return {
   ["lua/celspan/film/edits.lua"] = { "spec/edits" },
   ["lua/celspan/film/edit_edl.lua"] = { "spec/edits" },
   ["lua/celspan/film/edit_otio.lua"] = { "spec/edits" },
-  ["lua/celspan/film/edit_values.lua"] = { "spec/edits" },
+  ["lua/celspan/base/values.lua"] = { "spec/edits", "spec/sheet", "spec/track" },
   ["lua/celspan/film/storyboard.lua"] = { "spec/edits" },
   ["lua/celspan/film/timecode.lua"] = { "spec/edits" },
   ["lua/celspan/read/footage.lua"] = { "spec/footage", "spec/footage_bad" },

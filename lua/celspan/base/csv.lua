@@ -8,6 +8,7 @@
 local native = require "celspan.native"
 local fields = require "celspan.fields"
 local files = require "celspan.files"
+local values = require "celspan.values"
 
 local csv = {}
 
@@ -15,7 +16,7 @@ local csv = {}
 csv.most_bytes = 256 * 1024 * 1024
 
 local function fail(line, format, ...)
-  error({ message = ("line %d: "):format(line) .. format:format(...) }, 0)
+  values.fail("line %d: %s", line, format:format(...))
 end
 
 local function trim(text) return text:match "^%s*(.-)%s*$" end
@@ -163,7 +164,20 @@ function csv.rows(text, separator)
   return next_row() or {}, next_row
 end
 
+--- Raises { message = } unless a text is short enough, and UTF-8.
+local function check_text(text)
+  if #text > csv.most_bytes then
+    values.fail("the text has %d bytes; at most %d are read", #text, csv.most_bytes)
+  end
+  local length, at = utf8.len(text)
+  if length then return end
+  local _, lines = text:sub(1, at - 1):gsub("\n", "")
+  values.fail("line %d is not UTF-8 (byte %d): export the table as UTF-8", lines + 1,
+    text:byte(at))
+end
+
 local function decode(text, options)
+  check_text(text)
   local first, next_row = csv.rows(text, options.separator)
   local types, rows = options.types or {}, {}
   local header = options.header ~= false and first or nil
@@ -174,15 +188,6 @@ local function decode(text, options)
     rows[#rows + 1] = setmetatable(make_row(row, header, types, line, options.decimal), class)
   end
   return rows
-end
-
---- A sentence that says where a text is not UTF-8; nil: it is UTF-8.
-local function fault_of_coding(text)
-  local length, at = utf8.len(text)
-  if length then return nil end
-  local _, lines = text:sub(1, at - 1):gsub("\n", "")
-  return ("line %d is not UTF-8 (byte %d): export the table as UTF-8"):format(lines + 1,
-    text:byte(at))
 end
 
 local known = { header = "boolean", separator = "string", types = "table", decimal = "string" }
@@ -217,14 +222,9 @@ end
 ---@return table[]? rows rows[i][j], and rows[i].name with a header
 ---@return string? message
 function csv.decode(text, options)
-  if type(text) ~= "string" then native.refuse("csv: decode takes a string, got " .. type(text)) end
+  fields.takes("csv: decode", "string", "a string", text)
   options = options or {}
   check_options(options)
-  if #text > csv.most_bytes then
-    return nil, ("the text has %d bytes; at most %d are read"):format(#text, csv.most_bytes)
-  end
-  local fault = fault_of_coding(text)
-  if fault then return nil, fault end
   return fields.caught(decode, text, options)
 end
 
@@ -234,16 +234,12 @@ end
 ---@return table[]? rows rows[i][j], and rows[i].name with a header
 ---@return string? message
 function csv.read(path, options)
-  if type(path) ~= "string" then
-    native.refuse("csv: read takes a file name, got " .. type(path))
-  end
+  fields.takes("csv: read", "string", "a file name", path)
   options = options or {}
   check_options(options)
   local text, message = files.read_found(path, csv.most_bytes)
   if not text then return nil, message end
-  local rows, problem = csv.decode(text, options)
-  if not rows then return nil, ("%s: %s"):format(path, problem) end
-  return rows
+  return fields.caught_in(path, decode, text, options)
 end
 
 return fields.publish("csv", csv)

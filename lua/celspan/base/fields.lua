@@ -121,6 +121,16 @@ function fields.caught(work, ...)
   return nil, value.message
 end
 
+local function with_subject(subject, good, value, ...)
+  if good then return value, ... end
+  if type(value) ~= "table" then error(value, 0) end
+  return nil, ("%s: %s"):format(subject, value.message)
+end
+
+--- The results of a function; nil and the message, if it raises a table with one, after its
+--- subject, such as the name of a file.
+function fields.caught_in(subject, work, ...) return with_subject(subject, pcall(work, ...)) end
+
 --- Raises an error unless the first argument of a function is an object.
 function fields.object(noun, object)
   fields.expect_kind(fields.is_object(object), object, "%s: the first argument must be an object",

@@ -13,6 +13,21 @@ function ordered.last(list, most, field)
   return low
 end
 
+--- Sorts a list by a field of its items; those with the same value keep their order. Returns it.
+function ordered.sort(list, field)
+  local place, is_sorted = {}, true
+  for i, item in ipairs(list) do
+    place[item] = i
+    is_sorted = is_sorted and (i == 1 or list[i - 1][field] <= item[field])
+  end
+  if is_sorted then return list end
+  table.sort(list, function(a, b)
+    if a[field] ~= b[field] then return a[field] < b[field] end
+    return place[a] < place[b]
+  end)
+  return list
+end
+
 --- The names of a table, which are strings, in the order of their bytes.
 ---@param named table<string, any>
 ---@return string[]

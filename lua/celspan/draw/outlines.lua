@@ -11,6 +11,7 @@
 --       o--'______ nodes of a  on straight lines.
 local curves = require "celspan.curves"
 local lengths = require "celspan.outline_lengths"
+local ordered = require "celspan.ordered"
 
 local distance, measure, nearest = lengths.distance, lengths.measure, lengths.nearest
 local parameter, piece_at = lengths.parameter, lengths.piece_at
@@ -401,18 +402,13 @@ end
 --- The pairs of contours that are most similar, and the remaining contours.
 local function pair_up(ones, others, first, second, anchors)
   local list, taken, found = {}, {}, {}
-  for i, p in ipairs(ones) do
-    for j, q in ipairs(others) do
+  for _, p in ipairs(ones) do
+    for _, q in ipairs(others) do
       local is_given = anchors[p] and anchors[p][q]
-      list[#list + 1] = { p, q, order = i * (#others + 1) + j,
-                          cost = is_given and -1 or unlikeness(p, q, first, second) }
+      list[#list + 1] = { p, q, cost = is_given and -1 or unlikeness(p, q, first, second) }
     end
   end
-  table.sort(list, function(m, n)
-    if m.cost ~= n.cost then return m.cost < n.cost end
-    return m.order < n.order
-  end)
-  for _, pair in ipairs(list) do
+  for _, pair in ipairs(ordered.sort(list, "cost")) do
     if not taken[pair[1]] and not taken[pair[2]] then
       taken[pair[1]], taken[pair[2]] = true, true
       found[#found + 1] = pair

@@ -7,6 +7,7 @@
 local fields = require "celspan.fields"
 local files = require "celspan.files"
 local ordered = require "celspan.ordered"
+local values = require "celspan.values"
 
 local captions = {}
 
@@ -22,7 +23,7 @@ local Captions = fields.class("celspan.captions", "a list of captions")
 local MOST_HOURS = 1000000
 
 local function fail(line, format, ...)
-  error({ message = ("line %d: "):format(line) .. format:format(...) }, 0)
+  values.fail("line %d: %s", line, format:format(...))
 end
 
 -- ---------------------------------------------------------------- text
@@ -125,24 +126,17 @@ local function read_block(block, is_vtt, list)
   end
   local from, to = read_times(times, block.line + at - 1)
   local markup = table.concat(block, "\n", at + 1)
-  list[#list + 1] = { from = from, to = to, text = plain(markup), markup = markup,
-                      place = #list + 1 }
-end
-
-local function in_order(a, b)
-  if a.from ~= b.from then return a.from < b.from end
-  return a.place < b.place
+  list[#list + 1] = { from = from, to = to, text = plain(markup), markup = markup }
 end
 
 local function decode(text)
+  if not utf8.len(text) then values.fail "the text is not UTF-8" end
   text = text:gsub("^\239\187\191", ""):gsub("\r\n?", "\n"):gsub("\0", "\u{FFFD}")
   local is_vtt, list = text:find "^WEBVTT%f[%s\0]" ~= nil, {}
   for i, block in ipairs(read_blocks(text, is_vtt)) do
     if not (is_vtt and i == 1 and not block.has_arrow) then read_block(block, is_vtt, list) end
   end
-  table.sort(list, in_order)
-  for _, caption in ipairs(list) do caption.place = nil end
-  return setmetatable(list, Captions)
+  return setmetatable(ordered.sort(list, "from"), Captions)
 end
 
 --- The text that is shown at a time; if there are several captions, one on each line; nil if there
@@ -164,7 +158,6 @@ end
 ---@return string? message
 function captions.decode(text)
   fields.takes("captions: decode", "string", "a string", text)
-  if not utf8.len(text) then return nil, "the text is not UTF-8" end
   return fields.caught(decode, text)
 end
 
@@ -176,9 +169,7 @@ function captions.read(path)
   fields.takes("captions: read", "string", "a file name", path)
   local text, message = files.read_found(path, files.MOST_CAPTIONS)
   if not text then return nil, message end
-  local list, problem = captions.decode(text)
-  if not list then return nil, ("%s: %s"):format(path, problem) end
-  return list
+  return fields.caught_in(path, decode, text)
 end
 
 return fields.publish("captions", captions, Captions)

@@ -194,9 +194,7 @@ function oca.read(folder, document)
   local path = folder .. "/" .. document
   local text, message = files.read(path, json.most_bytes)
   if not text then return nil, message end
-  local read, fault = fields.caught(read_document, folder, text)
-  if not read then return nil, ("%s: %s"):format(path, fault) end
-  return read
+  return fields.caught_in(path, read_document, folder, text)
 end
 
 return fields.publish("oca", oca)

@@ -53,19 +53,7 @@ function columns.find(column, frame)
 end
 
 --- Sorts by `frame`; items of one frame keep their order.
-function columns.sort(list)
-  local place, is_sorted = {}, true
-  for i, item in ipairs(list) do
-    place[item] = i
-    is_sorted = is_sorted and (i == 1 or list[i - 1].frame <= item.frame)
-  end
-  if is_sorted then return list end
-  table.sort(list, function(a, b)
-    if a.frame ~= b.frame then return a.frame < b.frame end
-    return place[a] < place[b]
-  end)
-  return list
-end
+function columns.sort(list) return ordered.sort(list, "frame") end
 
 --- Raises an error if a text with this number of rows is too large to be written.
 function columns.check_cells(rows, list)

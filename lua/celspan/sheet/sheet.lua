@@ -218,10 +218,7 @@ function sheet.read(path, options)
   fields.check("sheet: read", options, { table = "any" })
   local text, message = files.found(path, read_whole)
   if not text then return nil, message end
-  local made
-  made, message = fields.caught(decode, text, path, options.table or 1)
-  if not made then return nil, ("%s: %s"):format(path, message) end
-  return made
+  return fields.caught_in(path, decode, text, path, options.table or 1)
 end
 
 -- ---------------------------------------------------------------- asking
@@ -231,11 +228,8 @@ local function place_of(self, layer, method)
   for i, name in ipairs(self.layers) do
     if name == layer then return i end
   end
-  local hint = type(layer) == "string"
-    and native.nearest(layer, { table.unpack(self.layers, 1, 100) })
-  native.refuse(("sheet: %s: there is no layer %s%s"):format(method,
-    type(layer) == "string" and ("%q"):format(layer) or fields.shown(layer),
-    hint and ("; did you mean %q?"):format(hint) or ""))
+  native.refuse(("sheet: %s: there is no layer '%s'%s"):format(method, fields.key(layer),
+    fields.hint(layer, { table.unpack(self.layers, 1, 100) }) or ""))
 end
 
 --- The column of a layer; checks that a method is called as one.
@@ -438,8 +432,8 @@ function methods:write(path)
   if not encode then
     return nil, ("%s: sheets are written as .xdts, .csv or .txt"):format(path)
   end
-  local text, refused = fields.caught(encode, plain(self))
-  if not text then return nil, ("%s: %s"):format(path, refused) end
+  local text, refused = fields.caught_in(path, encode, plain(self))
+  if not text then return nil, refused end
   return files.write(path, text)
 end
 

@@ -396,7 +396,7 @@ describe("a sheet", function()
   it("suggests the nearest layer", function()
     local hand = sheet.new { layers = { "hand" } }
     local message = raised.sentence(function() hand:at("hnad", 1) end)
-    assert.is_truthy(message:find('there is no layer "hnad"; did you mean "hand"?', 1, true),
+    assert.is_truthy(message:find("there is no layer 'hnad'; did you mean 'hand'?", 1, true),
       message)
     message = raised.sentence(function() hand:at("hand", 0 / 0) end)
     assert.is_truthy(message:find("got nan", 1, true), message)

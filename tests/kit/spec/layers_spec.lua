@@ -1044,8 +1044,8 @@ describe("an OCA folder", function()
     ["the document must be an object"] = "3",
     ["layer 1 must be an object, got number"] = '{"layers": [3]}',
     ["layers must be a list, got string"] = '{"layers": "x"}',
-    ["width is 1e%+300; it must be a number from 1 to 1048576"] = '{"width": 1e300}',
-    ["layer 1: opacity is 2; it must be a number from 0 to 1"] = '{"layers": [{"opacity": 2}]}',
+    ["width must be a number from 1 to 1048576, got 1e%+300"] = '{"width": 1e300}',
+    ["layer 1: opacity must be a number from 0 to 1, got 2"] = '{"layers": [{"opacity": 2}]}',
     ["nested deeper than 100 levels"] = ('{"layers":[{"type":"grouplayer","childLayers":['):rep(60),
     ['fileName is "/etc/passwd"; it must lie in the folder'] =
       ('{"layers": [{"frames": [%s]}]}'):format(drawing:format("x", "/etc/passwd", 1)),
