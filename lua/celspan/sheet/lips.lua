@@ -53,14 +53,10 @@ end
 
 --- The name of the drawing of a shape: first the replacements for missing shapes, then the map.
 local function namer(options)
-  local has
-  if options.set then
-    has = {}
-    for _, name in ipairs(options.set) do has[name] = true end
-  end
-  local map = options.map or {}
+  local has, map = {}, options.map or {}
+  for _, name in ipairs(options.set or {}) do has[name] = true end
   return function(shape)
-    if has and not has[shape] then shape = fallbacks[shape] or shape end
+    if options.set and not has[shape] then shape = fallbacks[shape] or shape end
     local mapped = map[shape]
     return mapped == nil and shape or mapped
   end
@@ -89,28 +85,20 @@ end
 ---@return celspan.lips.track? track
 ---@return string? message
 function lips.read(path, options)
-  if type(path) ~= "string" then
-    native.refuse("lips: read takes a file name, got " .. type(path))
-  end
+  fields.takes("lips: read", "string", "a file name", path)
   options = options or {}
   fields.check("lips", options, known)
   check_ranges(options)
   local text, message = files.read_found(path, json.most_bytes)
   if not text then return nil, message end
-  local found, problem = cues.read(text)
-  if not found then return nil, ("%s: %s"):format(path, problem) end
-  local fps = options.fps or 24
-  local shapes
-  if found.cues then
-    shapes, problem = mouths.from_cues(found.cues, fps)
-  else
-    shapes, problem = mouths.from_marks(found.marks, found.count, fps / (found.fps or fps))
-  end
-  if not shapes then return nil, ("%s: %s"):format(path, problem) end
-  shapes = mouths.hold(shapes, options.hold or 2)
-  local name = namer(options)
+  local fps, name, rest = options.fps or 24, namer(options), nil
+  local shapes, problem = fields.caught_in(path, function()
+    local found = cues.read(text)
+    rest = name(found.is_timed and "X" or "rest")
+    return mouths.hold(mouths.expose(found, fps), options.hold or 2)
+  end)
+  if not shapes then return nil, problem end
   for n, shape in ipairs(shapes) do shapes[n] = name(shape) end
-  local rest = name(found.cues and "X" or "rest")
   shapes = shifted(shapes, math.floor((options.start or 0) * fps + 0.5), rest)
   mouths.keep(path, shapes)
   return setmetatable({ shapes = shapes, frames = #shapes, fps = fps, rest = rest }, Track)

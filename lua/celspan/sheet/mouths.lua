@@ -1,4 +1,7 @@
 --- From timed cues to one mouth shape per frame: the step of lips.lua between reading and naming.
+local ordered = require "celspan.ordered"
+local values = require "celspan.values"
+
 local mouths = {}
 
 --- Shapes with the lips pressed together, as in m, b and p; and all closed shapes.
@@ -8,72 +11,56 @@ local closed = { A = true, MBP = true, X = true, rest = true }
 --- The longest recording that is read: a day at 24 frames per second.
 local most_frames = 2500000
 
---- The cues sorted by their starts; cues with equal starts are in the order of the file.
-local function in_order(list)
-  local sorted, place = {}, {}
-  for i, cue in ipairs(list) do sorted[i], place[cue] = cue, i end
-  table.sort(sorted, function(a, b)
-    if a[1] ~= b[1] then return a[1] < b[1] end
-    return place[a] < place[b]
-  end)
-  return sorted
+local function check_count(count)
+  if count > most_frames then values.fail "the recording is longer than a day" end
+  if count < 1 then values.fail "it ends before its first frame" end
+  return count
 end
 
---- Cues in seconds -> the shape of each frame: that of the cue that covers most of the frame; of
---- two equal ones, the later.
-function mouths.from_cues(given, fps)
-  local list, stop = in_order(given), 0
-  for _, cue in ipairs(list) do stop = math.max(stop, cue[2]) end
-  local count = math.ceil(stop * fps - 1e-6)
-  if count > most_frames then return nil, "the recording is longer than a day" end
-  if count < 1 then return nil, "it ends before its first frame" end
-  local shapes, best = {}, {}
+--- Cues in seconds, sorted -> the shape of each frame: that of the cue that covers most of the
+--- frame; of two equal ones, the later. A cue ends where the next one begins, whether they overlap
+--- or leave a gap.
+local function from_seconds(list, stop, fps)
+  local count, shapes, best = check_count(math.ceil(stop * fps - 1e-6)), {}, {}
   for i, cue in ipairs(list) do
-    -- a cue ends where the next one starts, whether they overlap or leave a gap
-    local ends = list[i + 1] and list[i + 1][1] or cue[2]
-    for n = math.max(1, math.floor(cue[1] * fps) + 1), math.min(count, math.ceil(ends * fps)) do
-      local cover = math.min(ends * fps, n) - math.max(cue[1] * fps, n - 1)
+    local starts, ends = cue.at * fps, (list[i + 1] and list[i + 1].at or stop) * fps
+    for n = math.max(1, math.floor(starts) + 1), math.min(count, math.ceil(ends)) do
+      local cover = math.min(ends, n) - math.max(starts, n - 1)
       -- pressed lips that cover a third of a frame get the whole frame
-      if pressed[cue[3]] and cover >= 1 / 3 then cover = cover + 1 end
-      if cover > 0 and cover >= (best[n] or 0) then shapes[n], best[n] = cue[3], cover end
+      if pressed[cue.shape] and cover >= 1 / 3 then cover = cover + 1 end
+      if cover > 0 and cover >= (best[n] or 0) then shapes[n], best[n] = cue.shape, cover end
     end
   end
   for n = 1, count do shapes[n] = shapes[n] or shapes[n - 1] or "X" end
   return shapes
 end
 
---- Marks in frames -> shape of each frame; if a frame has several marks, the last one counts.
-function mouths.from_marks(marks, count, scale)
-  local sorted = {}
-  for i, mark in ipairs(marks) do
-    sorted[i] = { frame = math.floor((mark[1] - 1) * scale + 1e-6) + 1, order = i, shape = mark[2] }
-  end
-  table.sort(sorted, function(a, b)
-    if a.frame ~= b.frame then return a.frame < b.frame end
-    return a.order < b.order
-  end)
-  local last = math.max(sorted[#sorted].frame, count and math.floor(count * scale + 0.5) or 0)
-  if last > most_frames then return nil, "the recording is longer than a day" end
-  if last < 1 then return nil, "it ends before its first frame" end
+--- Cues in frames, sorted -> the shape of each frame; of several cues in a frame the last counts.
+local function from_frames(list, stop, scale)
+  local function frame_of(cue) return math.floor((cue.at - 1) * scale + 1e-6) + 1 end
+  local last = check_count(math.max(frame_of(list[#list]), math.floor((stop or 0) * scale + 0.5)))
   local shapes, at = {}, 1
-  local shape = sorted[1].frame > 1 and "rest" or sorted[1].shape
+  local shape = frame_of(list[1]) > 1 and "rest" or list[1].shape
   for n = 1, last do
-    while sorted[at] and sorted[at].frame <= n do shape, at = sorted[at].shape, at + 1 end
+    while list[at] and frame_of(list[at]) <= n do shape, at = list[at].shape, at + 1 end
     shapes[n] = shape
   end
   return shapes
 end
 
---- Runs of equal shapes: { {first, length, shape}, ... }.
+--- The shape of each frame, from what celspan.cues has found. Raises { message = }.
+function mouths.expose(found, fps)
+  local list = ordered.sort(found.cues, "at")
+  if found.is_timed then return from_seconds(list, found.stop, fps) end
+  return from_frames(list, found.stop, fps / (found.fps or fps))
+end
+
+--- Runs of equal shapes: { { length =, shape = }, ... }.
 local function runs_of(shapes)
   local runs = {}
-  for _, shape in ipairs(shapes) do
-    local run = runs[#runs]
-    if run and run.shape == shape then
-      run.length = run.length + 1
-    else
-      runs[#runs + 1] = { length = 1, shape = shape }
-    end
+  for n, shape in ipairs(shapes) do
+    if shape ~= shapes[n - 1] then runs[#runs + 1] = { length = 0, shape = shape } end
+    runs[#runs].length = runs[#runs].length + 1
   end
   return runs
 end
@@ -119,11 +106,8 @@ local kept = {}
 
 --- shapes: for each frame of the film.
 function mouths.keep(path, shapes)
-  for i, one in ipairs(kept) do
-    if one.path == path then
-      table.remove(kept, i)
-      break
-    end
+  for i = #kept, 1, -1 do
+    if kept[i].path == path then table.remove(kept, i) end
   end
   table.insert(kept, { path = path, shapes = shapes })
   if #kept > KEPT_MOST then table.remove(kept, 1) end
