@@ -19,8 +19,9 @@ local clues = { grey = 0, patch = 1, light = 2 }
 
 -- ---------------------------------------------------------------- what is given
 
---- A colour string as three numbers in linear light; nil for any other string.
+--- A colour string as three numbers in linear light; nil for any other value.
 local function parse(text)
+  if type(text) ~= "string" then return nil end
   local good, paint = pcall(celspan.rgb, text)
   return good and paint.beta == 1 and paint.pigment or nil
 end
@@ -39,7 +40,7 @@ end
 
 --- A light or a pigment: {r, g, b}, or a colour.
 local function colour_of(name, value)
-  local colour = type(value) == "string" and parse(value) or value
+  local colour = parse(value) or value
   if type(colour) == "string" then
     refuse('%s must be {r, g, b} or a colour like "#ffe0b0", got "%s"', name, value)
   end
@@ -80,10 +81,8 @@ local function find_light(picture, options, estimate)
   if not uneven then return field, field end
   local w, h = native.picture_size(picture)
   if not w then return nil, h end
-  local shape
-  shape, message = native.light_shape(field, w, h)
-  if not shape then return nil, message end
-  return field, shape
+  local shape, problem = native.light_shape(field, w, h)
+  return shape and field, shape or problem
 end
 
 -- ---------------------------------------------------------------- ways
@@ -122,7 +121,7 @@ end
 
 --- A ground: its picture, or the light that it gives.
 local function ground_of(name, value)
-  local is_colour = type(value) == "table" or type(value) == "string" and parse(value)
+  local is_colour = type(value) == "table" or parse(value)
   return is_colour and colour_of(name, value) or picture_of(name, value)
 end
 
@@ -276,9 +275,7 @@ local function places_of(self, key)
   if #places > 0 then return places end
   local names = {}
   for _, cel in ipairs(self.cels) do names[#names + 1] = cel.name ~= "" and cel.name or nil end
-  local hint = type(key) == "string" and native.nearest(key, names)
-  refuse("light: there is no cel %s%s", type(key) == "string" and ('"%s"'):format(key)
-    or fields.shown(key), hint and ("; did you mean \"%s\"?"):format(hint) or "")
+  refuse("light: there is no cel '%s'%s", fields.key(key), fields.hint(key, names) or "")
 end
 
 --- The front light of the rostrum lights all cels that have no front light.

@@ -11,7 +11,7 @@ local celspan = require "celspan"
 local native = require "celspan.native"
 local fields = require "celspan.fields"
 local files = require "celspan.files"
-local json = require "celspan.json"
+local values = require "celspan.values"
 
 local track = {}
 
@@ -33,6 +33,7 @@ local sightings = setmetatable({}, { __mode = "k" })
 
 local models = { "translation", "similarity", "perspective" }
 local MOST_BYTES = 64 * 1024 * 1024 -- of a track file
+local LARGEST = 1e15 -- number in a track file
 
 -- ---------------------------------------------------------------- a value
 
@@ -40,21 +41,19 @@ local IDENTITY = { 1, 0, 0, 0, 1, 0, 0, 0, 1 }
 
 --- The lists for scripts, from the data of the frames.
 local function make(head, found)
-  local self = setmetatable(head, Track)
-  self.frames, self.lost = {}, {}
-  for frame in pairs(found) do self.frames[#self.frames + 1] = frame end
-  table.sort(self.frames)
-  for _, frame in ipairs(self.frames) do
-    if not found[frame] then self.lost[#self.lost + 1] = frame end
+  head.frames, head.lost = {}, {}
+  for frame in pairs(found) do table.insert(head.frames, frame) end
+  table.sort(head.frames)
+  for _, frame in ipairs(head.frames) do
+    if not found[frame] then table.insert(head.lost, frame) end
   end
-  sightings[self] = found
-  return self
+  sightings[head] = found
+  return setmetatable(head, Track)
 end
 
 --- The number of a frame, which is given as a number or as the argument of a frame function.
 local function number_of(method, f)
-  local number = f
-  if type(f) == "userdata" and tostring(f):find "^frame" then number = f.number end
+  local number = type(f) == "userdata" and tostring(f):find "^frame" and f.number or f
   fields.expect(fields.is_finite(number), f, "track: %s takes a frame or its number", method)
   return number
 end
@@ -76,21 +75,21 @@ end
 ---@return boolean is_found Whether the region was found in this frame
 function methods:motion(f)
   fields.self("track", Track, self, "motion")
-  local number = number_of("motion", f)
-  local found = sightings[self]
+  local number, found, matrix = number_of("motion", f), sightings[self], {}
   local before, after = around(self, number)
   local u = after == before and 0 or (number - before) / (after - before)
-  local a, b, matrix = found[before].matrix, found[after].matrix, {}
+  local a, b = found[before].matrix, found[after].matrix
   for i = 1, 9 do matrix[i] = a[i] + (b[i] - a[i]) * u end
   return matrix, found[number] and true or false
 end
 
-local function check_object(method, object)
+--- Checks the arguments of a method that moves an object or a cel. Returns the motion.
+local function motion_for(self, method, object, f)
+  fields.self("track", Track, self, method)
   local noun = tostring(object)
-  if type(object) ~= "userdata" or noun:find "^frame" or noun:find "^paint" then
-    native.refuse(("track: %s takes an object or a cel, got %s"):format(method,
-      fields.kind(object)))
-  end
+  local is_drawn = type(object) == "userdata" and not noun:find "^frame" and not noun:find "^paint"
+  fields.expect_kind(is_drawn, object, "track: %s takes an object or a cel", method)
+  return self:motion(number_of(method, f))
 end
 
 --- Art that is positioned for the first frame, moved to its position in frame f.
@@ -99,10 +98,8 @@ end
 ---@param f celspan.frame|number
 ---@return T
 function methods:place(object, f)
-  fields.self("track", Track, self, "place")
-  check_object("place", object)
-  number_of("place", f)
-  return object:transform(self:motion(f))
+  local motion = motion_for(self, "place", object, f)
+  return object:transform(motion)
 end
 
 --- An object that shows frame f, moved so that the region stays at its position in the first frame.
@@ -111,34 +108,36 @@ end
 ---@param f celspan.frame|number
 ---@return T
 function methods:steady(object, f)
-  fields.self("track", Track, self, "steady")
-  check_object("steady", object)
-  number_of("steady", f)
-  return object:transform(assert(native.inverse(self:motion(f))))
+  local motion = motion_for(self, "steady", object, f)
+  return object:transform(assert(native.inverse(motion)))
 end
 
 -- ---------------------------------------------------------------- following
 
 local known = { from = "number", at = "any", frames = "string", model = "string" }
 
+--- The number of a model; nil: there is none of this name.
+local function model_number(name)
+  for i, model in ipairs(models) do
+    if model == name then return i - 1 end
+  end
+end
+
+--- Checks the options. Returns the number of the model.
 local function check_options(options)
   fields.check("track", options, known)
-  local model = options.model or "similarity"
-  local place
-  for i, name in ipairs(models) do place = name == model and i - 1 or place end
-  if not place then
-    native.refuse(("track: field 'model' must be \"%s\", got \"%s\""):format(
-      table.concat(models, '", "'), model))
-  end
-  fields.expect(options.from and math.type(math.tointeger(options.from)) == "integer", options.from,
+  local name, at = options.model or "similarity", options.at
+  local model = model_number(name) or native.refuse(("track: field 'model' must be \"%s\", got "
+    .. "\"%s\""):format(table.concat(models, '", "'), name))
+  fields.expect(math.tointeger(options.from), options.from,
     "track: field 'from' must be the number of a frame")
-  local at = options.at
   if type(at) == "table" then
     fields.numbers("track", "at[%d]", at, 4, "{x, y, w, h} or an object")
-  elseif type(at) ~= "userdata" or not pcall(celspan.cel, { at }) then -- a cel takes only objects
-    native.refuse("track: field 'at' must be {x, y, w, h} or an object, got " .. fields.kind(at))
+  else -- a cel takes only objects
+    fields.expect_kind(type(at) == "userdata" and pcall(celspan.cel, { at }), at,
+      "track: field 'at' must be {x, y, w, h} or an object")
   end
-  return place
+  return model
 end
 
 --- A frame's pixels as 16-bit values.
@@ -169,19 +168,22 @@ local function find_pattern(pattern, from)
   return there:sub(1, #there - #name) .. pattern
 end
 
---- The numbers of the requested frames, ascending, which must include `from`.
+--- The requested frames after `from`, ascending, and those before it, descending; nil and a message
+--- if `from` is not among them.
 local function list_frames(pattern, options)
   local numbers, message = native.frames(pattern, options.frames)
   if not numbers then return nil, message end
   if #numbers == 0 then return nil, pattern .. ": there are no such files" end
-  local has_from = false
-  for _, number in ipairs(numbers) do has_from = has_from or number == options.from end
-  if not has_from then
-    return nil, ("%s: frame %d, in which the region is given, is not among the frames"):format(
-      pattern, options.from)
-  end
+  local after, before, has_from = {}, {}, false
   table.sort(numbers)
-  return numbers
+  for _, number in ipairs(numbers) do
+    if number > options.from then after[#after + 1] = number end
+    if number < options.from then table.insert(before, 1, number) end
+    has_from = has_from or number == options.from
+  end
+  if has_from then return after, before end
+  return nil, ("%s: frame %d, in which the region is given, is not among the frames"):format(
+    pattern, options.from)
 end
 
 --- Follows the region through `numbers` in one direction; adds the data of each frame.
@@ -200,16 +202,6 @@ local function follow_some(tracker, pattern, numbers, size, found)
                                  error = error_of } or false
   end
   return true
-end
-
---- The numbers after `from`, and the numbers before it in descending order.
-local function both_ways(numbers, from)
-  local after, before = {}, {}
-  for _, number in ipairs(numbers) do
-    if number > from then after[#after + 1] = number end
-    if number < from then table.insert(before, 1, number) end
-  end
-  return after, before
 end
 
 --- The region as {x, y, w, h}, and its mask if it is an object; nil and a message.
@@ -238,25 +230,20 @@ function track.follow(pattern, options)
   local from = math.tointeger(options.from)
   local where, message = find_pattern(pattern, from)
   if not where then return nil, message end
-  local numbers
-  numbers, message = list_frames(where, options)
-  if not numbers then return nil, message end
+  local after, before = list_frames(where, options)
+  if not after then return nil, before end
   local codes, w, h = read_frame(native.frame_name(where, from))
   if not codes then return nil, ("frame %d: %s"):format(from, w) end
   local region, mask = region_of(options.at, w, h)
   if not region then return nil, ("%s: frame %d: %s"):format(pattern, from, mask) end
-  local tracker
-  tracker, message = native.tracker(codes, w, h, model, region, mask)
-  if not tracker then return nil, ("%s: frame %d: %s"):format(pattern, from, message) end
+  local tracker, problem = native.tracker(codes, w, h, model, region, mask)
+  if not tracker then return nil, ("%s: frame %d: %s"):format(pattern, from, problem) end
   local found = { [from] = { matrix = IDENTITY, corners = 0, agreeing = 0, error = 0 } }
-  local after, before = both_ways(numbers, from)
-  local good
-  good, message = follow_some(tracker, where, after, { w, h }, found)
-  if good then
+  for _, numbers in ipairs { after, before } do
+    local good, fault = follow_some(tracker, where, numbers, { w, h }, found)
+    if not good then return nil, fault end
     native.rewind(tracker)
-    good, message = follow_some(tracker, where, before, { w, h }, found)
   end
-  if not good then return nil, message end
   return make({ from = from, at = region, model = models[model + 1], width = w, height = h },
     found)
 end
@@ -296,54 +283,50 @@ function methods:write(path)
   return files.write(path, self:text())
 end
 
---- Raises an error about a value in a file; where: its path in the file.
-local function demand(is_right, where, what)
-  if not is_right then error({ message = ("%s must be %s"):format(where, what) }, 0) end
-end
-
-local function numbers_in(value, count, where)
-  demand(type(value) == "table" and #value == count, where, count .. " numbers")
+--- A list of numbers in a file.
+local function numbers_in(object, where, name, count)
+  local list = values.get(object, where, name, "table")
+  if #list ~= count then values.fail("%s%s must be %d numbers", where, name, count) end
   for i = 1, count do
-    demand(fields.is_finite(value[i]), ("%s[%d]"):format(where, i), "a number")
+    values.number(list, where .. name .. ": ", i, -LARGEST, LARGEST)
   end
-  return value
+  return list
 end
 
-local function whole_in(value, where)
-  demand(math.tointeger(value), where, "a whole number")
-  return math.tointeger(value)
+local function whole_in(object, where, name)
+  return values.whole(object, where, name, -LARGEST, LARGEST)
 end
 
 local function sighting_in(entry, where)
   if entry.lost == true then return false end
-  local matrix = numbers_in(entry.matrix, 9, where .. ".matrix")
-  demand(native.inverse(matrix), where .. ".matrix", "invertible")
-  local error_of = entry.error
-  demand(fields.is_finite(error_of) and error_of >= 0, where .. ".error", "a number, 0 or more")
-  return { matrix = matrix, corners = whole_in(entry.corners, where .. ".corners"),
-    agreeing = whole_in(entry.agreeing, where .. ".agreeing"), error = error_of }
+  local matrix = numbers_in(entry, where, "matrix", 9)
+  if not native.inverse(matrix) then values.fail("%smatrix must be invertible", where) end
+  return { matrix = matrix, corners = whole_in(entry, where, "corners"),
+    agreeing = whole_in(entry, where, "agreeing"),
+    error = values.number(entry, where, "error", 0, LARGEST) }
 end
 
-local function from_value(value)
-  demand(type(value) == "table" and value.celspan == "track", "the file", "a track of celspan")
-  local is_model = false
-  for _, name in ipairs(models) do is_model = is_model or name == value.model end
-  demand(is_model, "model", "one of " .. table.concat(models, ", "))
-  local size = numbers_in(value.size, 2, "size")
-  demand(type(value.frames) == "table" and #value.frames > 0, "frames", "a list")
-  local found, is_found = {}, false
-  for i, entry in ipairs(value.frames) do
-    local where = ("frames[%d]"):format(i)
-    demand(type(entry) == "table", where, "a frame")
-    local number = whole_in(entry.frame, where .. ".frame")
-    demand(found[number] == nil, where .. ".frame", "a number that is not already used")
+local function read_text(text)
+  local value = values.decode(text, "the file")
+  if value.celspan ~= "track" then values.fail "the file must be a track of celspan" end
+  if not model_number(value.model) then
+    values.fail("model must be one of %s", table.concat(models, ", "))
+  end
+  local size, found, is_found = numbers_in(value, "", "size", 2), {}, false
+  for entry, where in values.each(value, "", "frames") do
+    local number = whole_in(entry, where, "frame")
+    if found[number] ~= nil then
+      values.fail("%sframe must be a number that is not already used", where)
+    end
     found[number] = sighting_in(entry, where)
     is_found = is_found or found[number]
   end
-  demand(is_found, "frames", "a list with a frame in which the region was found")
-  return make({ from = whole_in(value.from, "from"), at = numbers_in(value.at, 4, "at"),
-    model = value.model, width = whole_in(size[1], "size[1]"),
-    height = whole_in(size[2], "size[2]") }, found)
+  if not is_found then
+    values.fail "frames must be a list with a frame in which the region was found"
+  end
+  return make({ from = whole_in(value, "", "from"), at = numbers_in(value, "", "at", 4),
+    model = value.model, width = whole_in(size, "size: ", 1),
+    height = whole_in(size, "size: ", 2) }, found)
 end
 
 ---@param path string Relative to the caller's file, else to the script
@@ -353,11 +336,7 @@ function track.read(path)
   fields.takes("track: read", "string", "a file name", path)
   local text, message = files.read_found(path, MOST_BYTES)
   if not text then return nil, message end
-  local value, problem = json.decode(text)
-  if value == nil then return nil, ("%s: %s"):format(path, problem or "holds null") end
-  local result, fault = fields.caught(from_value, value)
-  if not result then return nil, ("%s: %s"):format(path, fault) end
-  return result
+  return fields.caught_in(path, read_text, text)
 end
 
 return fields.publish("track", track, methods)

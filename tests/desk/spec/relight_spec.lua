@@ -448,9 +448,9 @@ describe("relight.stack", function()
       message)
     stack = assert(relight.stack(rostrum_of({ 1, 1, 1 }, "#fff"), options))
     local cases = {
-      { { lmap = {} }, 'light: there is no cel "lmap"; did you mean "lamp"?' },
-      { { [3] = {} }, "light: there is no cel 3" },
-      { { [{}] = {}, [{ 1 }] = {} }, "light: there is no cel table" },
+      { { lmap = {} }, "light: there is no cel 'lmap'; did you mean 'lamp'?" },
+      { { [3] = {} }, "light: there is no cel '3'" },
+      { { [{}] = {}, [{ 1 }] = {} }, "light: there is no cel 'table'" },
       { { lamp = { front = "lamp" } },
         'light[1].front must be {r, g, b} or a colour like "#ffe0b0", got "lamp"' },
       { { lamp = { front = { 1, -1, 0 } } }, "light[1].front[2] must be 0 or more, got -1" },

@@ -216,16 +216,21 @@ describe("a file of a track", function()
 
   it("is refused with the position of the fault", function()
     assert.are.equal("the file must be a track of celspan", (message_of "{}"))
-    assert.are.equal("frames must be a list", (message_of(head .. "[]}")))
-    assert.are.equal("frames must be a list with a frame in which the region was found",
-      (message_of(head .. '[{"frame": 1, "lost": true}]}')))
-    assert.are.equal("frames[1].matrix must be 9 numbers", (message_of(head .. '[{"frame": 1}]}')))
+    assert.are.equal("frames is missing", (message_of((head:gsub(', "frames": ', "}")))))
+    for _, list in ipairs { '[{"frame": 1, "lost": true}]}', "[]}" } do
+      assert.are.equal("frames must be a list with a frame in which the region was found",
+        (message_of(head .. list)))
+    end
+    assert.are.equal("frames[1].matrix must be 9 numbers",
+      (message_of(head .. '[{"frame": 1, "matrix": []}]}')))
+    assert.are.equal("frames[1].matrix: 9 must be a number from -1e+15 to 1e+15, got inf",
+      (message_of(head .. '[{"frame": 1, "matrix": [1,0,0,0,1,0,0,0,1e999]}]}')))
     assert.are.equal("frames[1].matrix must be invertible",
       (message_of(head .. '[{"frame": 1, "matrix": [0,0,0,0,0,0,0,0,0]}]}')))
     assert.are.equal("frames[2].frame must be a number that is not already used", (message_of(head
       .. '[{"frame": 1, "lost": true}, {"frame": 1, "lost": true}]}')))
-    assert.are.equal("frames[1].frame must be a whole number",
-      (message_of(head .. '[{"frame": 1.5}]}')))
+    assert.are.equal("frames[1].frame must be a whole number from -1000000000000000 to "
+      .. "1000000000000000, got 1.5", (message_of(head .. '[{"frame": 1.5}]}')))
     assert.is_truthy(message_of(head):find("line 1", 1, true))
     assert.is_truthy(select(2, track.read(folder .. "/none.json")):find("No such file", 1, true))
   end)
