@@ -9,6 +9,7 @@
 -- source and of the film, from and to. A dissolve has two lines: the first source continues during
 -- its frames. Codes have no rate: it is that of the films.
 local json = require "celspan.json"
+local ordered = require "celspan.ordered"
 local timecode = require "celspan.timecode"
 local values = require "celspan.values"
 
@@ -22,10 +23,8 @@ local fail, skip = values.fail, values.skip
 --- The codes of a second at a rate; second, those left out in a minute with drop frames, or nil.
 local function codes_at(fps)
   local _, codes = timecode.rate(fps)
-  if not codes then
-    fail("an EDL has whole codes in a second, and the rate is %.14g: write .otio", fps)
-  end
-  return codes, timecode.dropped(fps)
+  return codes or fail("an EDL has whole codes in a second, and the rate is %.14g: write .otio",
+    fps), timecode.dropped(fps)
 end
 
 -- ---------------------------------------------------------------- writing
@@ -154,7 +153,7 @@ local function read_event(state, words)
   local is_both = channels == "B"
   state.event = { number = words[1], reel = words[2], kind = kind, frames = frames, place = place,
     is_seen = is_both or channels:find "V", is_heard = is_both or channels:find "A",
-    index = #state.events + 1, from = times[1], to = times[2], at = times[3], stop = times[4] }
+    from = times[1], to = times[2], at = times[3], stop = times[4] }
   state.events[#state.events + 1] = state.event
 end
 
@@ -266,8 +265,7 @@ local function add_parts(state, first)
       table.insert(state.sounds, sound)
     end
   end
-  table.sort(seen, function(a, b) return a.at < b.at or a.at == b.at and a.index < b.index end)
-  for i, event in ipairs(seen) do
+  for i, event in ipairs(ordered.sort(seen, "at")) do
     local is_empty = event.at == event.stop
     if not is_empty then
       add_seen(state, event, out and out.number == event.number and out or nil, i == #seen)
@@ -289,6 +287,7 @@ function edit_edl.decode(text, fps)
     or fail "has no events, lines such as 001 HALL V C and four codes"
   for _, event in ipairs(state.events) do first = math.min(first, event.at) end
   state.at = first
+  state.hour = timecode.frame("01:00:00:00", codes, state.is_dropped and dropped or 0)
   add_parts(state, first)
   for _, mark in ipairs(state.marks) do
     mark.from, mark.to = mark.from - first, mark.from - first

@@ -172,7 +172,9 @@ local function read_item(state, child, what)
   if schema == "Clip" then return read_clip(state, child, what) end
   if schema ~= "Transition" then
     local _, count = range_of(state, table_of(child).source_range, what)
-    if schema ~= "Gap" then
+    if schema == "Stack" or schema == "Track" then
+      skip(state, "%s: what is nested in it is not read: it is black; flatten it", what)
+    elseif schema ~= "Gap" then
       skip(state, "%s: %s is not known, and black", what, schema or "what has no schema")
     end
     return { count = count or 0 }
@@ -246,7 +248,8 @@ local function read_tracks(state, tracks)
     if is_seen and not list and one.enabled ~= false then
       list = read_track(state, number, one)
     elseif schema_of(one) ~= "Track" or is_seen or one.enabled == false then
-      skip(state, "track %d: only the first one of pictures and those of sounds are read", number)
+      skip(state, "track %d is not read: only the first one of pictures and those of sounds are",
+        number)
     end
   end
   if not state.rate then fail "has no track of pictures with items" end

@@ -5,6 +5,7 @@
 --   edit.marks     { name, from, to }: to is not counted; a mark without an end has from = to
 --   edit.sounds    { name, media, at, from, count, speed, track }: none overlaps on its track
 --   edit.skipped   sentences about what the film does not show as the list says
+--   edit.hour      frames of an hour, if sources have codes of tapes
 --
 -- Frames count from 0. `place` is where the list has a part, for messages.
 local carried = require "celspan.carried"
@@ -15,6 +16,7 @@ local fields = require "celspan.fields"
 local files = require "celspan.files"
 local json = require "celspan.json"
 local native = require "celspan.native"
+local ordered = require "celspan.ordered"
 local shots_of = require "celspan.shots"
 local soundtrack = require "celspan.soundtrack"
 local storyboard = require "celspan.storyboard"
@@ -60,10 +62,7 @@ local function marks_of(film, parts)
                           to = (last and last + 1 or first) - film.first }
     end
   end
-  table.sort(list, function(a, b)
-    return a.from < b.from or a.from == b.from and a.name < b.name
-  end)
-  return list
+  return ordered.sort(ordered.sort(list, "name"), "from")
 end
 
 --- The sounds of a film on tracks: each on the first one where it overlaps none before it.
@@ -81,8 +80,7 @@ local function sounds_of(film)
         from = (from - sound.start) * sound.speed * film.fps, speed = sound.speed }
     end
   end
-  table.sort(list, function(a, b) return a.at < b.at end)
-  for _, sound in ipairs(list) do
+  for _, sound in ipairs(ordered.sort(list, "at")) do
     sound.track = 1
     while (ends[sound.track] or 0) > sound.at + 1e-6 do sound.track = sound.track + 1 end
     ends[sound.track] = sound.at + sound.count
@@ -111,12 +109,17 @@ end
 
 -- ---------------------------------------------------------------- the film of an edit
 
---- The film of a shot, by the name of the clip, its file, or its reel; nil: there is none.
-local function find(films, part)
-  local base = base_of(part.media or "")
+--- The film of a shot, by the name of the clip, its file, or its reel; nil: there is none. A tape
+--- often begins at a whole hour, which its film does not have.
+local function find(state, part)
+  local base, hour = base_of(part.media or ""), state.edit.hour
   local stem = base:match "^(.-)%.[^.]*$" or base
   for _, name in ipairs { part.name, base, stem, part.reel } do
-    local film = rawget(films, name)
+    local film = rawget(state.films, name)
+    if film and hour and part.from >= math.max(hour, film.frames) then
+      part.from = part.from % hour
+      skip(state.edit, "%s: the codes of its source are read without their hour", part.place)
+    end
     if film then return film end
   end
 end
@@ -192,7 +195,7 @@ end
 local function part_of(state, part)
   local fps = state.like.fps
   if not part.name then return black(state.like, part.count) end
-  local film = find(state.films, part) or missing(state.films, part)
+  local film = find(state, part) or missing(state.films, part)
   table.insert(state.shots, { name = part.name, from = state.at / fps,
     to = (state.at + part.count) / fps, source = { from = part.from / fps,
     to = (part.from + part.count * part.speed) / fps } })
@@ -222,7 +225,7 @@ end
 local function cut_sounds(state)
   local list, fps = {}, state.like.fps
   for _, sound in ipairs(state.edit.sounds) do
-    local film, file = sound.name and find(state.films, sound), sound.media
+    local film, file = sound.name and find(state, sound), sound.media
     if file and not file:find "^/" then file = state.folder .. file end
     local can_be = sound.name and sound.from >= 0 and sound.speed >= 0.01 and sound.count > 0
     if can_be and (film or file) then
@@ -278,7 +281,7 @@ end
 --- For cut.read.
 function edits.read(cut, path, films)
   fields.takes("cut: read", "string", "the name of a file", path)
-  local form, folder, shots = (path:match "%.(%w+)$" or ""):lower(), "", nil
+  local form, folder = (path:match "%.(%w+)$" or ""):lower(), ""
   if form ~= "storyboarder" and not readers[form] then
     native.refuse(("cut: read: %s must end in .otio, .edl or .storyboarder"):format(path))
   end
@@ -287,13 +290,7 @@ function edits.read(cut, path, films)
     return files.read(found, MOST_BYTES)
   end)
   if not text then return nil, message end
-  local film, problem = fields.caught(function()
-    local made
-    made, shots = decode(cut, form, text, films, folder)
-    return made
-  end)
-  if not film then return nil, ("%s: %s"):format(path, problem) end
-  return film, shots
+  return fields.caught_in(path, decode, cut, form, text, films, folder)
 end
 
 return fields.seal("edits", edits)

@@ -277,6 +277,17 @@ describe("an EDL", function()
     assert.are.same({ hall[11], hall[11], hall[11], hall[11] }, shown("000.0", "00:00:00:10"))
   end)
 
+  it("may have the codes of tapes, which begin at a whole hour", function()
+    local films = films_at(24)
+    local film, shots = read("a.edl",
+      edl "001  hall  V  C  10:00:00:12 10:00:01:00 01:00:00:00 01:00:00:12", films)
+    assert.are.equal("table", type(shots), shots)
+    assert.are.same({ from = 0.5, to = 1 }, shots[1].source)
+    assert.are.same({ "line 2: event 001: the codes of its source are read without their hour" },
+      shots.skipped)
+    assert.are.equal(frames(films.hall)[13], frames(film)[1])
+  end)
+
   it("that is wrong is refused with its file, line and event", function()
     local films, at = films_at(24), " 00:00:00:00 00:00:01:00 "
     local function wrong(message, ...)
@@ -385,6 +396,16 @@ describe("OpenTimelineIO", function()
       "track 1, item 2: what has no schema is not known, and black",
       'track 1, item 3 "x": Odd is not known, and black',
       "track 1, item 4: 'Melt' is not known, and a dissolve" }, shots.skipped)
+  end)
+
+  it("may have nested and further tracks, which are said not to be read", function()
+    local text = timeline(item("Clip.2", "hall", range(0, 12)), item("Stack.1", "x", range(0, 5)))
+    local further = ',{"OTIO_SCHEMA":"Track.1","kind":"Video","children":[]}]}}'
+    local film, shots = read("a.otio", (text:gsub("%]}}$", further)), films_at(24))
+    assert.are.equal(17, film.frames)
+    assert.are.same({ 'track 1, item 2 "x": what is nested in it is not read: it is black; flatten '
+      .. "it", "track 2 is not read: only the first one of pictures and those of sounds are" },
+      shots.skipped)
   end)
 
   it("that is wrong is refused with its file and item", function()
