@@ -126,6 +126,19 @@ return film { size = { 160, 90 }, frames = 30, marks = { wave = 5 },
     refused(5, "a.txt", "sheet a.txt -o a.txt/a.pdf")
   end)
 
+  it_prints("has its letters in a file of its own, which is removed", function()
+    write_sheet("a.txt", "fps 24\nlayers A", { "1 1" })
+    bench:write(".a.pdf.ttf", "mine")
+    bench:inside "mkdir run"
+    bench:write("run/other.txt", "")
+    for _, name in ipairs { "a.pdf", "a.txt/a.pdf" } do
+      bench:inside(("XDG_RUNTIME_DIR=run '%s' sheet a.txt -o %s"):format(workbench.absolute, name))
+    end
+    assert.equal("mine", bench:read ".a.pdf.ttf")
+    assert.truthy(bench:read "a.pdf")
+    assert.same({ "other.txt" }, bench:files "run")
+  end)
+
   it_prints("is refused without its font", function()
     write_sheet("a.txt", "fps 24\nframes 2\nlayers A", { "1 1" })
     refused(4, "none.ttf", "sheet a.txt -o a.pdf --font none.ttf")

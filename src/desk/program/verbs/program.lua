@@ -204,6 +204,32 @@ function program.run_all(next_item, workers, start, finish)
   return finished, is_well
 end
 
+--- 128 bits that nobody can guess, in hexadecimal digits.
+function program.random()
+  local file = assert(io.open("/dev/urandom", "rb"))
+  local bytes = assert(file:read(16))
+  file:close()
+  return (bytes:gsub(".", function(byte) return ("%02x"):format(byte:byte()) end))
+end
+
+--- A folder that a variable of the environment names; nil: none.
+local function named(variable)
+  local path = os.getenv(variable)
+  return path ~= "" and path or nil
+end
+
+--- Writes a file into a new folder, both for this user alone. Returns its path; nil and a message;
+--- also a function that removes both.
+function program.save_apart(name, text)
+  local folder = (named "XDG_RUNTIME_DIR" or named "TMPDIR" or "/tmp") .. "/celspan-"
+    .. program.random()
+  local path, message = program.save_private(folder, name, text)
+  return path, message, function()
+    os.remove(folder .. "/" .. name)
+    os.remove(folder)
+  end
+end
+
 --- Bytes as digits of base64 (RFC 4648).
 function program.base64(bytes)
   return require("celspan.native").data(bytes):sub(#"data:;base64," + 1)

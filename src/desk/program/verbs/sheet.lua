@@ -14,11 +14,9 @@ local is_script = request.script or program.has_ending(input, ".lua")
 local function marks_of(made, layer)
   local list = {}
   for frame, marks in pairs(made:marks(layer)) do
-    local names = ordered.names(marks)
-    if #names > 0 then list[#list + 1] = { frame = frame, marks = names } end
+    list[#list + 1] = { frame = frame, marks = ordered.names(marks) }
   end
-  table.sort(list, function(a, b) return a.frame < b.frame end)
-  return list
+  return ordered.sort(list, "frame")
 end
 
 --- The facts of a sheet, for other programs.
@@ -43,52 +41,49 @@ local function write_edit(script)
   return program.put(list, output, request[1])
 end
 
---- What a film adds to its sheet on paper.
-local function notes_of(script)
-  local numbers = script and request.frames and script:numbers()
-  return script and program.part("shooting.lua", program, script, numbers) or {}
+--- The file of the letters, and a function that removes it if it is there for this time alone.
+local function font_file()
+  if request.font then return program.resolve(request.font), function() end end
+  local path, fault, remove = program.save_apart("block.ttf", program.text "block.ttf")
+  return path or program.fail("output", "%s", fault), remove
 end
 
---- Writes the sheet on paper. Its letters are for the time being in a file beside the output.
+--- Writes the sheet on paper, with what a film adds to it.
 local function print_sheet(made, script)
   local title = made.name ~= "" and made.name or input:match "[^/]*$":gsub("%.[^.]*$", "")
-  local font = request.font and program.resolve(request.font)
-  local folder, name = output:match "^(.-)([^/]*)$"
-  local own = not font and ("%s.%s.ttf"):format(folder, name:sub(1, 240))
-  program.make_folders(output)
-  if own then program.save(own, program.text "block.ttf") end
+  local notes = script and program.part("shooting.lua", program, script,
+    request.frames and script:numbers()) or {}
+  local font, remove = font_file()
   local is_made, fault = pcall(function()
     local pages = program.part("paper.lua", program, request, made)
-    program.pages(pages(title, font or program.resolve(own), notes_of(script)), output)
+    program.make_folders(output)
+    program.pages(pages(title, font, notes), output)
   end)
-  if own then os.remove(own) end
+  remove()
   if not is_made then error(fault, 0) end
 end
 
+local function refuse_if(is_wrong, ...)
+  if is_wrong then program.usage(...) end
+end
+
 local is_paper = output and program.has_ending(output, ".pdf")
-if output and output ~= "-" and not is_edit and not is_paper
-  and not program.has_ending(output, ".xdts", ".csv", ".txt") then
-  program.usage("-o: '%s' must end in .xdts, .csv, .txt, .otio, .edl or .pdf", output)
-end
-if is_edit and (request.frames or not is_script) then
-  program.usage("-o: %s is an edit list, which is made of a script, of all its frames", output)
-end
-if request.media and not is_edit then
-  program.usage "--media goes with an edit list: -o cut.otio or cut.edl"
-end
-if (request.paper or request.font) and not is_paper then
-  program.usage "--paper and --font go with a sheet on paper: -o cut.pdf"
-end
+local is_sheet = not output or output == "-" or program.has_ending(output, ".xdts", ".csv", ".txt")
+refuse_if(not (is_sheet or is_edit or is_paper),
+  "-o: '%s' must end in .xdts, .csv, .txt, .otio, .edl or .pdf", output)
+refuse_if(is_edit and (request.frames or not is_script),
+  "-o: %s is an edit list, which is made of a script, of all its frames", output)
+refuse_if(request.media and not is_edit,
+  "--media goes with an edit list: -o cut.otio or cut.edl")
+refuse_if((request.paper or request.font) and not is_paper,
+  "--paper and --font go with a sheet on paper: -o cut.pdf")
 if request.font and program.entries(request.font) ~= false then
   program.fail("input", "%s: is not a file; --font takes a font", request.font)
 end
-if request.paper and request.paper ~= "a4" and request.paper ~= "a3" then
-  program.usage("--paper: '%s' is not a4 or a3", request.paper)
-end
-if output and request.json then program.usage("--json goes to standard output: leave -o out") end
-if request.frames and not is_script then
-  program.usage("--frames goes with a script, and %s is a sheet", input)
-end
+refuse_if(request.paper and request.paper ~= "a4" and request.paper ~= "a3",
+  "--paper: '%s' is not a4 or a3", request.paper)
+refuse_if(output and request.json, "--json goes to standard output: leave -o out")
+refuse_if(request.frames and not is_script, "--frames goes with a script, and %s is a sheet", input)
 if not is_script then program.refuse_rights() end
 
 local script = is_script and program.script()

@@ -35,7 +35,7 @@ end
 folder = folder or request[1]:match "^.*/" or ""
 
 local web = program.web(math.tointeger(request.port) or 0)
-local door = guard.new(web.port, pages)
+local door = guard.new(web.port, pages, program.random())
 local files = part "files.lua".new()
 local places = part "places.lua".new(files)
 local reply = program.part("reply.lua", program, web)
@@ -288,7 +288,7 @@ set_comparing(#request == 2)
 local address = ("http://127.0.0.1:%d/?token=%s"):format(web.port, door.token)
 print("watching " .. address)
 io.stdout:flush()
-if request.open then programs.browse(address, "celspan-" .. guard.random()) end
+if request.open then programs.browse(address) end
 while not program.is_stopped() do step() end
 programs.close()
 renders:close()

@@ -9,6 +9,7 @@
 -- strip, further pages have the others, for the same frames.
 local program, request, made = ...
 local celspan = require "celspan"
+local ordered = require "celspan.ordered"
 
 local SIZES = { a4 = { 595, 842, row = 9.4 }, a3 = { 842, 1191, row = 12 } } -- points
 local SIDE, TOP, HEAD, NAMES, GAP = 34, 28, 40, 26, 12
@@ -276,10 +277,7 @@ local function column_of_notes(kind, more)
       if own == kind then notes[#notes + 1] = { from = note.from, to = note.to, text = text } end
     end
   end
-  table.sort(notes, function(a, b)
-    if a.from ~= b.from then return a.from < b.from end
-    return a.text < b.text
-  end)
+  ordered.sort(ordered.sort(notes, "text"), "from")
   return { name = kind:upper(), notes = notes, lanes = lay_lanes(notes) }
 end
 

@@ -1,9 +1,11 @@
 --- What a film adds to its sheet on paper: its marks, its captions as dialogue, and its camera.
 local program, script, numbers = ...
+local captions = require "celspan.captions"
 
 local places = {} -- of the frames on the sheet, by number
 local count = numbers and #numbers or script.frames
-for i = 1, count do places[numbers and numbers[i] or script.first + i - 1] = i end
+local function number_at(place) return numbers and numbers[place] or script.first + place - 1 end
+for place = 1, count do places[number_at(place)] = place end
 
 local notes = {}
 local function add(kind, from, to, text)
@@ -17,35 +19,24 @@ local function add_marks()
   end
 end
 
-local function seconds_of(h, m, s, parts) return h * 3600 + m * 60 + s + parts / 1000 end
-
---- Adds captions of SRT. A caption begins and ends at the frame that is nearest.
+--- Adds the captions. A caption begins and ends at the frame that is nearest.
 local function add_dialogue()
-  local time = "(%d+):(%d+):(%d+),(%d+)"
-  for a, b, c, d, e, f, g, h, text in
-    (script:captions() .. "\n\n"):gmatch(time .. " %-%-> " .. time .. "[^\n]*\n(.-)\n\n") do
-    local first = script.first + math.floor(seconds_of(a, b, c, d) * script.fps + 0.5)
-    local last = script.first + math.floor(seconds_of(e, f, g, h) * script.fps + 0.5) - 1
-    if places[first] and places[last] and places[first] <= places[last] then
-      add("dialogue", places[first], places[last], (text:gsub("<[^>]*>", "")))
-    end
+  for _, caption in ipairs(program.check(captions.decode(script:captions()))) do
+    local from = places[script.first + math.floor(caption.from * script.fps + 0.5)]
+    local to = places[script.first + math.floor(caption.to * script.fps + 0.5) - 1]
+    if from and to and from <= to then add("dialogue", from, to, caption.text) end
   end
 end
+
+local MOVES = { { "PAN", "x", "y" }, { "ZOOM", "width", "width" }, { "TURN", "turn", "turn" } }
 
 --- What the camera does between two frames: "PAN + ZOOM"; "": nothing.
 local function move_of(before, after)
   local words = {}
-  local function compare(word, ...)
-    for _, name in ipairs { ... } do
-      if before[name] ~= after[name] then
-        words[#words + 1] = word
-        return
-      end
-    end
+  for _, move in ipairs(MOVES) do
+    local is_moved = before[move[2]] ~= after[move[2]] or before[move[3]] ~= after[move[3]]
+    if is_moved then words[#words + 1] = move[1] end
   end
-  compare("PAN", "x", "y")
-  compare("ZOOM", "width")
-  compare("TURN", "turn")
   return table.concat(words, " + ")
 end
 
@@ -53,8 +44,7 @@ end
 local function add_camera()
   local run, before
   for place = 1, count do
-    local number = numbers and numbers[place] or script.first + place - 1
-    local now = program.camera(script, number) or {}
+    local now = program.camera(script, number_at(place)) or {}
     local move = before and move_of(before, now) or ""
     if run and run.text == move then
       run.to = place

@@ -46,31 +46,18 @@ end
 local PAGE = '<!doctype html><meta charset="utf-8"><title>celspan</title>'
   .. '<meta http-equiv="refresh" content="0; url=%s"><a href="%s">The film</a>\n'
 
-local folder, file -- the file and its folder with the page that leads to the address; nil: none
+--- Removes the page that leads to the address.
+function programs.close() end
 
---- A folder that a variable of the environment names; nil: none.
-local function named(variable)
-  local path = os.getenv(variable)
-  return path ~= "" and path or nil
-end
-
---- Opens the browser at an address by way of a file, which only this user can read. name: of the
---- file's folder.
-function programs.browse(address, name)
-  local message
-  folder = (named "XDG_RUNTIME_DIR" or named "TMPDIR" or "/tmp") .. "/" .. name
-  file, message = program.save_private(folder, "open.html", PAGE:format(address, address))
+--- Opens the browser at an address by way of a file, which only this user can read.
+function programs.browse(address)
+  local file, message, remove = program.save_apart("open.html", PAGE:format(address, address))
+  programs.close = remove
   if not file then
     program.note("%s: open the address yourself", message)
   elseif not launch({ "xdg-open", file }, true) then
     program.note "there is no program xdg-open: open the address yourself"
   end
-end
-
---- Removes that file.
-function programs.close()
-  if file then os.remove(file) end
-  if folder then os.remove(folder) end
 end
 
 return programs
