@@ -118,7 +118,8 @@ static bool on_start(void *user, const char *name, const char *const *attributes
 static bool on_end(void *user, const char *name, uint64_t line) {
   cs_document *document = user;
   document->line = line;
-  document->status = document->format->end(document, local_name(name));
+  if (document->format->end)
+    document->status = document->format->end(document, local_name(name));
   return document->status == CELSPAN_OK;
 }
 

@@ -29,7 +29,7 @@ typedef struct cs_document cs_document;
 typedef struct cs_document_format {
   const char *member;  /* a name in the archive */
   const char *purpose; /* for the message if the type module is missing */
-  /* name: without its namespace. Any error stops the reading. */
+  /* name: without its namespace. Any error stops the reading. end: NULL: does nothing */
   celspan_status (*start)(cs_document *document, const char *name);
   celspan_status (*end)(cs_document *document, const char *name);
   uint32_t depth; /* the most elements inside one another, enough for the deepest groups */
@@ -80,6 +80,10 @@ CELSPAN_CHECKED celspan_status cs_document_size(cs_document *document, const cha
 CELSPAN_CHECKED celspan_status cs_document_add(cs_document *document, bool is_group,
                                                cs_contents_layer **out);
 void cs_document_close_group(cs_document *document);
+/* A note on the layer that was added last. Errors: NO_MEMORY. */
+#define CS_DOCUMENT_NOTE(document, ...)                                                            \
+  cs_contents_note((document)->context, (document)->painting,                                      \
+                   cs_contents_last((document)->painting), __VA_ARGS__)
 /* Counts bytes that were unpacked. Errors: LIMIT. */
 CELSPAN_CHECKED celspan_status cs_document_scan(cs_document *document, int64_t count);
 /* Records "path: member:line: sentence". */

@@ -19,12 +19,6 @@
 
 static bool is(const char *text, const char *word) { return text && strcmp(text, word) == 0; }
 
-/* A note on the layer added last. */
-static celspan_status note(cs_document *document, const char *sentence) {
-  return cs_contents_note(document->context, document->painting,
-                          cs_contents_last(document->painting), "%s", sentence);
-}
-
 /* ---------------------------------------------------------------- layers */
 
 static celspan_status read_common(cs_document *document, cs_contents_layer *layer) {
@@ -49,7 +43,7 @@ static celspan_status read_channels(cs_document *document) {
   if (!off)
     return CELSPAN_OK;
   if (off[1])
-    return note(document, "some channels are switched off: it is shown whole");
+    return CS_DOCUMENT_NOTE(document, "some channels are switched off: it is shown whole");
   document->painting->layers[cs_contents_last(document->painting)].is_within = true;
   return cs_contents_note_own(document->context, document->painting,
                               "alpha is inherited from the layers below: it is shown whole");
@@ -152,9 +146,7 @@ static celspan_status read_member(cs_document *document, const cs_zip_member *me
   cs_krita_tiles_form form = {.width = document->painting->width,
                               .height = document->painting->height};
   if (!cs_krita_tiles_form_of(space ? space : "RGBA", &form))
-    return cs_contents_note(document->context, document->painting,
-                            cs_contents_last(document->painting),
-                            "pixels in the colour space %.40s: it is empty", space);
+    return CS_DOCUMENT_NOTE(document, "pixels in the colour space %.40s: it is empty", space);
   CS_TRY(read_default(document, name, &form));
   int32_t x = layer->x, y = layer->y;
   form.x = -x;
@@ -253,11 +245,6 @@ static celspan_status start_in_keys(cs_document *document, const char *name) {
   return is(name, "rightTangent") ? read_handle(document, key->fields.out) : CELSPAN_OK;
 }
 
-static celspan_status end_in_keys(cs_document *document, const char *name) {
-  (void)document, (void)name;
-  return CELSPAN_OK;
-}
-
 /* Adds the drawing of a key to the open group. number: what it is called. */
 static celspan_status add_drawing(cs_document *document, size_t place, size_t number) {
   celspan_painting *painting = document->painting;
@@ -303,7 +290,7 @@ static celspan_status add_drawings(cs_document *document, size_t first, shown *k
 
 /* Reads the keys of the layer added last. */
 static celspan_status read_keys(cs_document *document) {
-  static const cs_document_format format = {.start = start_in_keys, .end = end_in_keys};
+  static const cs_document_format format = {.start = start_in_keys};
   const cs_zip_member *member;
   CS_TRY(named_member(document, "keyframes", &member));
   return cs_document_read_member(document, member, &format);
@@ -352,9 +339,7 @@ static celspan_status start_layer(cs_document *document) {
     return CELSPAN_OK;
   }
   if (type && !is(type, "paintlayer"))
-    return cs_contents_note(document->context, document->painting,
-                            cs_contents_last(document->painting), "is a \"%.60s\": it is empty",
-                            type);
+    return CS_DOCUMENT_NOTE(document, "is a \"%.60s\": it is empty", type);
   return has_drawings(document->painting, first) ? make_drawings(document, first)
                                                  : read_pixels(document, layer);
 }

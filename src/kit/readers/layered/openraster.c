@@ -198,9 +198,7 @@ static celspan_status start_group(cs_document *document) {
   if (layer->x == 0 && layer->y == 0)
     return CELSPAN_OK;
   layer->x = layer->y = 0;
-  return cs_contents_note(document->context, document->painting,
-                          cs_contents_last(document->painting),
-                          "an offset of a group: it stays where it is");
+  return CS_DOCUMENT_NOTE(document, "an offset of a group: it stays where it is");
 }
 
 static celspan_status read_pixels(cs_document *document, cs_contents_layer *layer) {
@@ -215,9 +213,7 @@ static celspan_status read_pixels(cs_document *document, cs_contents_layer *laye
                             "src is \"%.200s\"; it must lie in the archive", name);
   const char *ending = strrchr(name, '.');
   if (!ending || strcmp(ending, ".png") != 0)
-    return cs_contents_note(document->context, document->painting,
-                            cs_contents_last(document->painting),
-                            "\"%.100s\", which is not a PNG: it is empty", name);
+    return CS_DOCUMENT_NOTE(document, "\"%.100s\", which is not a PNG: it is empty", name);
   const cs_zip_member *member = cs_zip_find(document->zip, name);
   if (!member)
     return cs_document_fail(document, CELSPAN_INPUT,
@@ -251,8 +247,7 @@ static celspan_status start(cs_document *document, const char *name) {
     return CELSPAN_OK;
   CS_TRY(cs_document_add(document, false, &layer));
   CS_TRY(read_common(document, layer));
-  return cs_contents_note(document->context, document->painting,
-                          cs_contents_last(document->painting), "text: it is empty");
+  return CS_DOCUMENT_NOTE(document, "text: it is empty");
 }
 
 static celspan_status end(cs_document *document, const char *name) {
