@@ -51,10 +51,10 @@ end
 --- larger than the film, and fits on the page.
 local function panel_size(script, columns)
   if request.size or request.scale then return { script:view_size() } end
-  local most = math.min(SHEET_MOST / columns, PANEL_MOST)
-  local scale, size = math.min(1, most / math.max(script.size[1], script.size[2])), {}
-  for i = 1, 2 do size[i] = math.max(PANEL_LEAST, math.floor(script.size[i] * scale + 0.5)) end
-  return size
+  local w, h = table.unpack(script.size)
+  local scale = math.min(1, math.min(SHEET_MOST / columns, PANEL_MOST) / math.max(w, h))
+  local function side(length) return math.max(PANEL_LEAST, math.floor(length * scale + 0.5)) end
+  return { side(w), side(h) }
 end
 
 --- Every n-th number, and the last one. most: the limit for their count; if necessary, the last
@@ -87,10 +87,8 @@ local function make_sheet(script, output)
   script:lay_onion(size[1], size[2])
   program.count_frames(shown)
   for page = 1, (shown + panels - 1) // panels do
-    local on_page = {}
-    for i = (page - 1) * panels, math.min(page * panels, shown) - 1 do
-      on_page[#on_page + 1] = numbers[i + 1]
-    end
+    local on_page = table.move(numbers, (page - 1) * panels + 1, math.min(page * panels, shown), 1,
+      {})
     local path = program.check(native.frame_name(output, page))
     local rostrum, width, height = page_of(script, on_page, columns, size, path)
     program.check(celspan.render(rostrum, path, { size = { width, height },
@@ -99,20 +97,21 @@ local function make_sheet(script, output)
 end
 
 --- Makes the picture of --camera or --palette, a single one.
-local function make_picture(part, output)
+local function make_picture(kind, output)
   for _, name in ipairs { "camera", "palette", "grid", "every", "size", "scale", "onion" } do
-    if request[name] and name ~= (request.camera and "camera" or "palette") then
-      program.usage("--%s does not go with --%s", name, request.camera and "camera" or "palette")
+    if request[name] and name ~= kind then
+      program.usage("--%s does not go with --%s", name, kind)
     end
   end
   if program.has_number(output) then
     program.usage("%s: one picture is made, so its name has no place for a number", output)
   end
+  local part = kind == "camera" and "way.lua" or "colours.lua"
   program.part(part, program, request, program.script(), number_at, output)
 end
 
 if not request.output then program.usage "-o is missing: give -o sheet.png" end
 program.refuse_target(request.output)
-local picture = request.camera and "way.lua" or request.palette and "colours.lua"
-if picture then return make_picture(picture, request.output) end
+local kind = request.camera and "camera" or request.palette and "palette"
+if kind then return make_picture(kind, request.output) end
 make_sheet(program.script(), request.output)

@@ -9,6 +9,7 @@
 local program, request, script, number_at, output = ...
 local celspan = require "celspan"
 local json = require "celspan.json"
+local ordered = require "celspan.ordered"
 
 local WIDE, HIGH, BAR, LABEL = 1440, 300, 72, 28 -- pixels
 local COLUMNS_MOST, MAIN = 360, 6
@@ -30,9 +31,9 @@ local function light_of(number)
   return list
 end
 
---- Adds a colour to a sum of several.
-local function add(sum, colour, count)
-  sum.count = sum.count + (count or 1)
+--- Adds a colour, or another sum, to a sum of several.
+local function add(sum, colour)
+  sum.count = sum.count + (colour.count or 1)
   for i = 1, 3 do sum[i] = sum[i] + colour[i] end
 end
 
@@ -59,23 +60,14 @@ local function main_colours(number)
       key = key * STEPS + math.min(STEPS - 1, math.floor(code * STEPS))
     end
     bins[key] = bins[key] or new()
-    bins[key].key = key
     add(bins[key], colour)
     add(whole, colour)
   end
   local list = {}
-  for _, bin in pairs(bins) do list[#list + 1] = bin end
-  table.sort(list, function(a, b)
-    if a.count ~= b.count then return a.count > b.count end
-    return a.key < b.key
-  end)
-  local main = table.move(list, 1, math.min(MAIN, #list), 1, {})
-  table.sort(main, function(a, b)
-    local one, other = brightness(a), brightness(b)
-    if one ~= other then return one > other end
-    return a.key < b.key
-  end)
-  return main, whole
+  for key = 0, STEPS ^ 3 - 1 do list[#list + 1] = bins[key] end
+  for _, bin in ipairs(list) do bin.rarity, bin.darkness = -bin.count, -brightness(bin) end
+  local main = table.move(ordered.sort(list, "rarity"), 1, math.min(MAIN, #list), 1, {})
+  return ordered.sort(main, "darkness"), whole
 end
 
 --- The places of the first frames of shots among the numbers; of a film without shots, 1.
@@ -124,7 +116,7 @@ for i, number in ipairs(numbers) do
   if starts[i] then shots[#shots + 1] = { number = number, from = i, sum = new() } end
   if (i - 1) % every == 0 or starts[i] then
     local main, whole = main_colours(number)
-    add(shots[#shots].sum, whole, whole.count)
+    add(shots[#shots].sum, whole)
     columns[#columns + 1] = { main = main, from = i }
   end
   program.made_frame(number, output)
