@@ -17,9 +17,7 @@ json.most_bytes = 64 * 1024 * 1024
 ---@return any value
 ---@return string? message
 function json.decode(text)
-  if type(text) ~= "string" then
-    error("json: decode takes a string, got " .. type(text), 2)
-  end
+  fields.takes("json: decode", "string", "a string", text)
   if #text > json.most_bytes then
     return nil, ("the text has %d bytes; at most %d are read"):format(#text, json.most_bytes)
   end
@@ -31,7 +29,7 @@ end
 ---@return any value
 ---@return string? message
 function json.read(path)
-  if type(path) ~= "string" then error("json: read takes a file name, got " .. type(path), 2) end
+  fields.takes("json: read", "string", "a file name", path)
   local text, message = require "celspan.files".read_found(path, json.most_bytes)
   if not text then return nil, message end
   local value, problem = json.decode(text)

@@ -181,10 +181,6 @@ function relight.from(options)
   refuse "it takes a picture, or front and back, or over"
 end
 
-local function check_path(name, path)
-  fields.expect_kind(type(path) == "string", path, "relight: %s takes the name of a file", name)
-end
-
 --- Stores a relit picture, or any picture, as an EXR file of seven channels.
 ---@param texture celspan.texture
 ---@param path string With the extension .exr
@@ -195,7 +191,7 @@ function relight.write(texture, path)
   if type(texture) ~= "userdata" or not (noun:find "^relit" or noun:find "^picture") then
     refuse("write takes a relit picture, got %s", fields.kind(texture))
   end
-  check_path("write", path)
+  fields.takes("relight: write", "string", "the name of a file", path)
   return native.relight_write(texture, path)
 end
 
@@ -203,7 +199,7 @@ end
 ---@return celspan.texture? texture
 ---@return string? message
 function relight.read(path)
-  check_path("read", path)
+  fields.takes("relight: read", "string", "the name of a file", path)
   return native.relight_read(path)
 end
 
@@ -238,20 +234,13 @@ function relight.stack(rostrum, options)
   return self
 end
 
---- The codes of "#rrggbb" or "#rgb", 0..1.
-local function codes_of(text)
-  local width, codes = #text > 5 and 2 or 1, {}
-  for digits in text:sub(2, 3 * width + 1):gmatch(("%x"):rep(width)) do
-    codes[#codes + 1] = tonumber(digits, 16) / (width == 2 and 255 or 15)
-  end
-  return codes
-end
-
 --- {r, g, b} or {r, g, b, a}, or a colour, which is converted where codes are mixed.
 local function light_of(self, name, value)
   local alpha = type(value) == "table" and value[4]
   local colour = colour_of(name, value)
-  if self.mixes_codes and type(value) == "string" then colour = codes_of(value) end
+  if self.mixes_codes and type(value) == "string" then
+    colour = { native.code(colour[1]), native.code(colour[2]), native.code(colour[3]) }
+  end
   fields.expect(not alpha or fields.is_finite(alpha) and alpha >= 0 and alpha <= 1, alpha,
     "relight: %s[4] must be from 0 to 1", name)
   return colour, alpha or 1

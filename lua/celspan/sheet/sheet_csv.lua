@@ -22,6 +22,23 @@ local function split(line, number)
   return cells
 end
 
+--- The rows of frames in order, { frame =, cells = }, from a line on; a row that repeats the row
+--- before it shares its cells. frame_of(cells, number): the frame of a line; nil: it has none.
+local function read_frames(lines, first, frame_of)
+  local list, repeated, cells = {}, nil, nil
+  for number = first, #lines do
+    local digits, rest = lines[number]:match "^(#?%d+)(.*)$"
+    local is_repeated = rest and rest == repeated
+    local row = is_repeated and { digits } or split(lines[number], number)
+    local frame = lines[number]:find "[^%s,]" and frame_of(row, number)
+    if frame then
+      if not is_repeated then cells, repeated = row, rest end
+      list[#list + 1] = { frame = frame, cells = cells }
+    end
+  end
+  return columns.sort(list)
+end
+
 -- ---------------------------------------------------------------- TVPaint and Krita
 
 --- The numbers of line 3 by the names of line 2, in lower case, and the name of the project.
@@ -63,7 +80,9 @@ local function read_row(layers, cells)
   return first:find "^#" and not first:find "^#%d+$"
 end
 
-local function frame_of(layers, cells, number)
+--- The frame of a line; nil if it has properties of the layers, which are read.
+local function read_line(layers, cells, number)
+  if read_row(layers, cells) then return nil end
   local digits = cells[1]:match "^#0*(%d+)$"
   if not digits then
     values.fail("line %d begins with %q; a frame begins with # and its number", number, cells[1])
@@ -79,28 +98,12 @@ local function frame_of(layers, cells, number)
   return math.tointeger(frame) + 1
 end
 
---- The rows of frames in order, { frame =, cells = }; a row that repeats the row before it shares
---- its cells.
-local function read_frames(lines, layers)
-  local list, repeated, cells = {}, nil, nil
-  for number = 4, #lines do
-    local digits, rest = lines[number]:match "^(#%d+)(.*)$"
-    if rest and rest == repeated then
-      list[#list + 1] = { frame = frame_of(layers, { digits }, number), cells = cells }
-    elseif lines[number]:find "%S" then
-      local row = split(lines[number], number)
-      if not read_row(layers, row) then
-        list[#list + 1] = { frame = frame_of(layers, row, number), cells = row }
-        cells, repeated = row, rest
-      end
-    end
-  end
-  return columns.sort(list)
-end
-
 local function decode_tvpaint(lines)
   local layers, before = {}, nil
-  local list, number, name = read_frames(lines, layers), read_head(lines)
+  local number, name = read_head(lines)
+  local list = read_frames(lines, 4, function(cells, place)
+    return read_line(layers, cells, place)
+  end)
   for _, row in ipairs(list) do
     for i, column in ipairs(row.cells ~= before and layers or {}) do
       local drawing = row.cells[i + 1] or ""
@@ -141,22 +144,17 @@ local function read_cell(column, frame, text)
 end
 
 local function decode_clip_studio(lines)
-  local layers, list = read_names(lines), {}
-  for number = 3, #lines do
-    local cells = split(lines[number], number)
+  local layers = read_names(lines)
+  local list = read_frames(lines, 3, function(cells, number)
     local frame = math.tointeger(tonumber(cells[1]))
-    if lines[number]:find "[^%s,]" then
-      if not frame or frame < 1 or frame > columns.most_frames then
-        values.fail("line %d begins with %q; it must be the number of a frame, from 1", number,
-          cells[1])
-      end
-      list[#list + 1] = { frame = frame, cells = cells }
-    end
-  end
+    if frame and frame >= 1 and frame <= columns.most_frames then return frame end
+    values.fail("line %d begins with %q; it must be the number of a frame, from 1", number,
+      cells[1])
+  end)
   if #layers == 0 or #list == 0 then
     values.fail "line 2: it is neither the CSV of TVPaint or Krita nor that of Clip Studio"
   end
-  for _, row in ipairs(columns.sort(list)) do
+  for _, row in ipairs(list) do
     for i, column in ipairs(layers) do read_cell(column, row.frame, row.cells[i + 1] or "") end
   end
   return { name = "", layers = layers, notes = {}, fps = 24, frames = list[#list].frame }

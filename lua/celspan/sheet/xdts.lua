@@ -102,7 +102,7 @@ end
 
 --- The column of cells for a track. Tracks without a name have their numbers, from 1.
 local function column_at(state, place, where)
-  if state.has_cells[place] then values.fail("%strack %d is a duplicate", where, place - 1) end
+  if state.has_cells[place] then values.fail("%strackNo %d is a duplicate", where, place - 1) end
   state.has_cells[place] = true
   for i = #state.layers + 1, place do state.layers[i] = columns.new(("track %d"):format(i)) end
   return state.layers[place]
@@ -131,7 +131,8 @@ local function read_fields(tables, where)
   end
   local names = state.headers[CELLS] or {}
   if #names > columns.most_layers then
-    values.fail("%sthere are more than %d tracks, which is the limit", where, columns.most_layers)
+    values.fail("%stimeTableHeaders: there are more than %d tracks, which is the limit", where,
+      columns.most_layers)
   end
   for i, name in ipairs(names) do state.layers[i] = columns.new(name) end
   for field, here in values.each(tables, where, "fields", {}) do

@@ -167,7 +167,7 @@ describe("an XDTS", function()
       [head .. '{"version":5,"timeTables":[{"duration":1e300,"timeTableHeaders":[]}]}'] =
         "timeTables[1].duration must be a whole number from 1 to 10000000, got 1e+300",
       [xdts_of(3, '{"trackNo":0},{"trackNo":0}')] =
-        "timeTables[1].fields[1].tracks[2]: track 0 is a duplicate",
+        "timeTables[1].fields[1].tracks[2].trackNo 0 is a duplicate",
       [xdts_of(3, '{"trackNo":-1}')] =
         "timeTables[1].fields[1].tracks[1].trackNo must be a whole number from 0 to "
         .. "65535, got -1",
