@@ -130,6 +130,7 @@ return film { size = { 160, 90 }, frames = 30, marks = { wave = 5 },
     write_sheet("a.txt", "fps 24\nlayers A", { "1 1" })
     bench:write(".a.pdf.ttf", "mine")
     bench:inside "mkdir run"
+    bench:write("three.lua", "return film { frames = 3, frame = function() return {} end }")
     bench:write("run/other.txt", "")
     for _, name in ipairs { "a.pdf", "a.txt/a.pdf" } do
       bench:inside(("XDG_RUNTIME_DIR=run '%s' sheet a.txt -o %s"):format(workbench.absolute, name))
@@ -137,6 +138,9 @@ return film { size = { 160, 90 }, frames = 30, marks = { wave = 5 },
     assert.equal("mine", bench:read ".a.pdf.ttf")
     assert.truthy(bench:read "a.pdf")
     assert.same({ "other.txt" }, bench:files "run")
+    done "sheet three.lua -o strict.pdf --strict"
+    bench:inside "rm -f stdout stderr"
+    assert.same({ ".a.pdf.ttf", "a.pdf", "a.txt", "run", "strict.pdf", "three.lua" }, bench:files())
   end)
 
   it_prints("is refused without its font", function()

@@ -212,22 +212,29 @@ function program.random()
   return (bytes:gsub(".", function(byte) return ("%02x"):format(byte:byte()) end))
 end
 
---- A folder that a variable of the environment names; nil: none.
-local function named(variable)
-  local path = os.getenv(variable)
-  return path ~= "" and path or nil
-end
-
---- Writes a file into a new folder, both for this user alone. Returns its path; nil and a message;
---- also a function that removes both.
-function program.save_apart(name, text)
-  local folder = (named "XDG_RUNTIME_DIR" or named "TMPDIR" or "/tmp") .. "/celspan-"
-    .. program.random()
-  local path, message = program.save_private(folder, name, text)
-  return path, message, function()
-    os.remove(folder .. "/" .. name)
-    os.remove(folder)
+--- Writes a file into a new folder, both for this user alone: where such files are kept, or, as
+--- this may be forbidden, in the folder `last`. Returns its path and a function that removes both;
+--- nil and a message.
+function program.save_apart(name, text, last)
+  local bases, message = {}, nil
+  for _, variable in ipairs { "XDG_RUNTIME_DIR", "TMPDIR" } do
+    local base = os.getenv(variable)
+    bases[#bases + 1] = base ~= "" and base or nil
   end
+  table.insert(bases, "/tmp")
+  table.insert(bases, last)
+  for _, base in ipairs(bases) do
+    local folder = ("%s/.celspan-%s"):format(base, program.random())
+    local function remove()
+      os.remove(folder .. "/" .. name)
+      os.remove(folder)
+    end
+    local path, fault = program.save_private(folder, name, text)
+    if path then return program.resolve(path), remove end
+    message = fault
+    remove()
+  end
+  return nil, message
 end
 
 --- Bytes as digits of base64 (RFC 4648).

@@ -44,8 +44,9 @@ end
 --- The file of the letters, and a function that removes it if it is there for this time alone.
 local function font_file()
   if request.font then return program.resolve(request.font), function() end end
-  local path, fault, remove = program.save_apart("block.ttf", program.text "block.ttf")
-  return path or program.fail("output", "%s", fault), remove
+  local folder = output:match "^.*/" or "."
+  local path, remove = program.save_apart("block.ttf", program.text "block.ttf", folder)
+  return path or program.fail("output", "%s", remove), remove
 end
 
 --- Writes the sheet on paper, with what a film adds to it.
@@ -53,10 +54,10 @@ local function print_sheet(made, script)
   local title = made.name ~= "" and made.name or input:match "[^/]*$":gsub("%.[^.]*$", "")
   local notes = script and program.part("shooting.lua", program, script,
     request.frames and script:numbers()) or {}
+  program.make_folders(output)
   local font, remove = font_file()
   local is_made, fault = pcall(function()
     local pages = program.part("paper.lua", program, request, made)
-    program.make_folders(output)
     program.pages(pages(title, font, notes), output)
   end)
   remove()

@@ -51,11 +51,10 @@ function programs.close() end
 
 --- Opens the browser at an address by way of a file, which only this user can read.
 function programs.browse(address)
-  local file, message, remove = program.save_apart("open.html", PAGE:format(address, address))
+  local file, remove = program.save_apart("open.html", PAGE:format(address, address))
+  if not file then return program.note("%s: open the address yourself", remove) end
   programs.close = remove
-  if not file then
-    program.note("%s: open the address yourself", message)
-  elseif not launch({ "xdg-open", file }, true) then
+  if not launch({ "xdg-open", file }, true) then
     program.note "there is no program xdg-open: open the address yourself"
   end
 end
