@@ -55,13 +55,12 @@ celspan_status cs_defocus_neighbours_place(celspan_context *context,
 
 /* ---------------------------------------------------------------- samples */
 
-/* The samples under the nodes that are being made, a tile at a time. */
+/* The samples under the nodes that are being made, a tile at a time: rows of `width` of them. */
 typedef struct filling {
   const cs_defocus_neighbours *neighbours;
   const cs_nearby *rule;
   cs_defocus_samples samples;
-  int32_t top;   /* the row of the first samples */
-  cs_v4 *values; /* rows of `width` samples */
+  int32_t top; /* the row of the first samples */
   size_t width;
 } filling;
 
@@ -76,7 +75,7 @@ static inline bool is_inside(const filling *f, int32_t column, int32_t row) {
 }
 
 static inline const cs_v4 *line_of(const filling *f, int32_t row) {
-  return f->values + (size_t)(row - f->top) * f->width;
+  return f->samples.room + (size_t)(row - f->top) * f->width;
 }
 
 static inline cs_v4 sample_at(const filling *f, int32_t column, int32_t row) {
@@ -91,7 +90,7 @@ static inline cs_v4 straight(cs_v4 v) {
 
 static void take_row(void *user, int32_t k) {
   filling *f = user;
-  cs_v4 *row = f->values + (size_t)k * f->width;
+  cs_v4 *row = f->samples.room + (size_t)k * f->width;
   int32_t count = f->samples.high - f->samples.low;
   cs_defocus_samples_spread(&f->samples, k, row);
   for (int32_t x = 0; f->rule->keeps_alpha && x < count; x++)
@@ -254,7 +253,6 @@ celspan_status cs_defocus_neighbours_fill(const cs_defocus_neighbours *neighbour
                                           cs_row_maker *maker, int32_t columns, int32_t first,
                                           int32_t end, float (*nodes)[4]) {
   const int32_t *extent = neighbours->extent;
-  cs_memory *memory = maker->context->memory;
   filling f = {.neighbours = neighbours,
                .rule = neighbours->rule,
                .top = first,
@@ -269,15 +267,10 @@ celspan_status cs_defocus_neighbours_fill(const cs_defocus_neighbours *neighbour
                                   .sum_nodes = make_nodes,
                                   .user = &f};
   const int32_t rows = end - first + 2 * extent[1];
-  celspan_status status = cs_defocus_samples_init(maker->context, rows, &f.samples);
-  f.values = cs_mem_array(memory, (size_t)rows * f.width, sizeof *f.values);
-  if (status == CELSPAN_OK && !f.values)
-    status = cs_fail_memory(maker->context);
-  if (status == CELSPAN_OK)
-    status = cs_defocus_samples_make(&f.samples, maker, first);
+  celspan_status status =
+      cs_defocus_samples_begin(maker, first, rows, (size_t)rows * f.width, &f.samples);
   if (status == CELSPAN_OK)
     cs_defocus_samples_sum(&f.samples, &tiles, nodes);
-  cs_defocus_samples_finish(&f.samples, memory);
-  cs_mem_free(memory, f.values, (size_t)rows * f.width * sizeof *f.values);
+  cs_defocus_samples_finish(&f.samples, maker->context->memory);
   return status;
 }

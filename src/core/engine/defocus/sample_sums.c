@@ -106,7 +106,7 @@ typedef struct summing {
   cs_v4 *placed;              /* and by their place within a node's width */
   cs_v4 *middle;              /* the samples at the nodes, to sharpen them: TILE a row, or NULL */
   cs_v4 *across;              /* summed along the rows: TILE nodes a row */
-  float (*out)[4];            /* TILE nodes */
+  cs_v4 *out;                 /* TILE nodes */
 } summing;
 
 /* The nodes of a tile, rounded up to what is summed at once. */
@@ -167,18 +167,16 @@ static void sum_down(void *user, int32_t y, int32_t count, float (*nodes)[4]) {
   size_t first = (size_t)(y * sums->factor), middle = (size_t)(sums->extent_y + sums->factor / 2);
   CS_WIDE_CHOOSE(s->isa, cs_defocus_sums_about)
   (sums->down, sums->extent_y, (const float *)(s->across + first * TILE), 4 * TILE * middle,
-   node_count(s), s->out[0]);
+   node_count(s), (float *)s->out);
   const cs_v4 *samples = s->middle ? s->middle + (size_t)(y + sums->extent_y) * TILE : NULL;
   for (int32_t x = 0; samples && x < count; x++)
-    cs_v4_store(s->out[x], sharpened(samples[x], cs_v4_load(s->out[x]), s->amount));
+    s->out[x] = sharpened(samples[x], s->out[x], s->amount);
   memcpy(nodes, s->out, (size_t)count * sizeof *nodes);
 }
 
 celspan_status cs_defocus_sums_fill(const cs_defocus_sums *sums, cs_row_maker *maker, int plane,
                                     int32_t columns, int32_t first, int32_t end,
                                     float (*nodes)[4]) {
-  celspan_context *context = maker->context;
-  cs_memory *memory = context->memory;
   /* what the cel lets through does not change */
   summing s = {.sums = sums, .isa = maker->painter.isa, .amount = plane == 0 ? sums->amount : 0};
   const cs_defocus_tiles tiles = {.columns = columns,
@@ -192,25 +190,17 @@ celspan_status cs_defocus_sums_fill(const cs_defocus_sums *sums, cs_row_maker *m
   int32_t rows = (end - first) * sums->factor + 2 * sums->extent_y;
   /* at least as many as the samples under a tile */
   size_t placed = sums->places * (size_t)sums->factor, across = (size_t)rows * TILE;
-  celspan_status status = cs_defocus_samples_init(context, rows, &s.samples);
-  s.row = cs_mem_array(memory, placed, sizeof *s.row);
-  s.placed = cs_mem_array(memory, placed, sizeof *s.placed);
-  s.across = cs_mem_resize(memory, NULL, 0, across * sizeof *s.across); /* written first */
-  s.out = cs_mem_array(memory, TILE, sizeof *s.out);
-  if (sums->sharpens)
-    s.middle = cs_mem_array(memory, across, sizeof *s.middle);
-  bool is_whole = s.row && s.placed && s.across && s.out && (s.middle || !sums->sharpens);
-  if (status == CELSPAN_OK && !is_whole)
-    status = cs_fail_memory(context);
-  if (status == CELSPAN_OK)
-    status = cs_defocus_samples_make(&s.samples, maker, first * sums->factor);
-  if (status == CELSPAN_OK)
+  size_t room = 2 * placed + TILE + (sums->sharpens ? 2 : 1) * across;
+  celspan_status status =
+      cs_defocus_samples_begin(maker, first * sums->factor, rows, room, &s.samples);
+  if (status == CELSPAN_OK) {
+    s.row = s.samples.room;
+    s.placed = s.row + placed;
+    s.out = s.placed + placed;
+    s.across = s.out + TILE;
+    s.middle = sums->sharpens ? s.across + across : NULL;
     cs_defocus_samples_sum(&s.samples, &tiles, nodes);
-  cs_defocus_samples_finish(&s.samples, memory);
-  cs_mem_free(memory, s.row, placed * sizeof *s.row);
-  cs_mem_free(memory, s.placed, placed * sizeof *s.placed);
-  cs_mem_free(memory, s.across, across * sizeof *s.across);
-  cs_mem_free(memory, s.out, TILE * sizeof *s.out);
-  cs_mem_free(memory, s.middle, across * sizeof *s.middle);
+  }
+  cs_defocus_samples_finish(&s.samples, maker->context->memory);
   return status;
 }

@@ -1,11 +1,17 @@
 #include "engine/defocus/samples.h"
 
-celspan_status cs_defocus_samples_init(celspan_context *context, int32_t count,
-                                       cs_defocus_samples *out) {
-  *out = (cs_defocus_samples){.count = count};
-  out->rows = cs_mem_array(context->memory, (size_t)count, sizeof *out->rows);
-  out->from = cs_mem_array(context->memory, (size_t)count, sizeof *out->from);
-  return out->rows && out->from ? CELSPAN_OK : cs_fail_memory(context);
+celspan_status cs_defocus_samples_begin(cs_row_maker *maker, int32_t first, int32_t count,
+                                        size_t room, cs_defocus_samples *out) {
+  cs_memory *memory = maker->context->memory;
+  *out = (cs_defocus_samples){.count = count, .room_count = room};
+  out->rows = cs_mem_array(memory, (size_t)count, sizeof *out->rows);
+  out->from = cs_mem_array(memory, (size_t)count, sizeof *out->from);
+  out->room = cs_mem_array(memory, room, sizeof *out->room);
+  if (!out->rows || !out->from || !out->room)
+    return cs_fail_memory(maker->context);
+  for (int32_t k = 0; k < count; k++)
+    CS_TRY(cs_row_make(maker, first + k, &out->rows[k]));
+  return CELSPAN_OK;
 }
 
 void cs_defocus_samples_finish(cs_defocus_samples *samples, cs_memory *memory) {
@@ -14,14 +20,7 @@ void cs_defocus_samples_finish(cs_defocus_samples *samples, cs_memory *memory) {
     cs_row_finish(&samples->rows[k], memory);
   cs_mem_free(memory, samples->rows, count * sizeof *samples->rows);
   cs_mem_free(memory, samples->from, count * sizeof *samples->from);
-  *samples = (cs_defocus_samples){0};
-}
-
-celspan_status cs_defocus_samples_make(cs_defocus_samples *samples, cs_row_maker *maker,
-                                       int32_t first) {
-  for (int32_t k = 0; k < samples->count; k++)
-    CS_TRY(cs_row_make(maker, first + k, &samples->rows[k]));
-  return CELSPAN_OK;
+  cs_mem_free(memory, samples->room, samples->room_count * sizeof *samples->room);
 }
 
 /* Moves to the tile over the samples [low, high). */

@@ -17,15 +17,16 @@ typedef struct cs_defocus_samples {
   size_t *from; /* by row: the first span that may meet the tile */
   int32_t count;
   int32_t low, high; /* the samples under the tile; tiles come from left to right */
+  cs_v4 *room;       /* for what is made of them: zeros at first */
+  size_t room_count;
 } cs_defocus_samples;
 
-/* Room for `count` rows. Must be finished after a failure too. Errors: NO_MEMORY. */
-CELSPAN_CHECKED celspan_status cs_defocus_samples_init(celspan_context *context, int32_t count,
-                                                       cs_defocus_samples *out);
+/* Makes `count` rows, from row `first` of the maker on, and room for `room` values. Must be
+ * finished after a failure too. Errors: NO_MEMORY, and those of the maker's rows. */
+CELSPAN_CHECKED celspan_status cs_defocus_samples_begin(cs_row_maker *maker, int32_t first,
+                                                        int32_t count, size_t room,
+                                                        cs_defocus_samples *out);
 void cs_defocus_samples_finish(cs_defocus_samples *samples, cs_memory *memory);
-/* Makes the rows from row `first` of the maker on. Errors: those of the maker's rows. */
-CELSPAN_CHECKED celspan_status cs_defocus_samples_make(cs_defocus_samples *samples,
-                                                       cs_row_maker *maker, int32_t first);
 /* Whether row k has one colour under the tile; *out: the first colour of the row there. */
 bool cs_defocus_samples_are_one(const cs_defocus_samples *samples, int32_t k, cs_v4 *out);
 /* Nodes that are summed from samples, tile by tile. Node x of a row lies over the samples from

@@ -88,8 +88,8 @@ typedef struct summing {
   cs_isa isa;
   cs_defocus_samples samples; /* the samples under all nodes */
   cs_v4 *row;                 /* samples of one row under the tile */
-  cs_v4 *sums;     /* by row: the sum of the samples from the tile's left edge up to each sample */
-  float (*out)[4]; /* TILE nodes */
+  cs_v4 *sums; /* by row: the sum of the samples from the tile's left edge up to each sample */
+  cs_v4 *out;  /* TILE nodes */
 } summing;
 
 /* The prefix sums of a row's samples from the tile's left edge on. */
@@ -110,15 +110,13 @@ static void sum_nodes(void *user, int32_t y, int32_t count, float (*nodes)[4]) {
   summing *s = user;
   const cs_v4 *sums = s->sums + (size_t)(y * s->slices->factor) * s->slices->stride;
   CS_WIDE_CHOOSE(s->isa, cs_defocus_slices_sum)
-  (s->slices->slices, s->slices->count, (const float *)sums, TILE, s->out[0]);
+  (s->slices->slices, s->slices->count, (const float *)sums, TILE, (float *)s->out);
   memcpy(nodes, s->out, (size_t)count * sizeof *nodes);
 }
 
 celspan_status cs_defocus_slices_fill(const cs_defocus_slices *slices, cs_row_maker *maker,
                                       int32_t columns, int32_t first, int32_t end,
                                       float (*nodes)[4]) {
-  celspan_context *context = maker->context;
-  cs_memory *memory = context->memory;
   summing s = {.slices = slices, .isa = maker->painter.isa};
   const cs_defocus_tiles tiles = {.columns = columns,
                                   .rows = end - first,
@@ -131,19 +129,14 @@ celspan_status cs_defocus_slices_fill(const cs_defocus_slices *slices, cs_row_ma
   int32_t rows = (end - first) * slices->factor + 2 * slices->extent_y;
   size_t samples = (size_t)(TILE * slices->factor + 2 * slices->extent_x + 1);
   size_t sums = (size_t)rows * slices->stride;
-  celspan_status status = cs_defocus_samples_init(context, rows, &s.samples);
-  s.row = cs_mem_array(memory, samples, sizeof *s.row);
-  s.sums = cs_mem_array(memory, sums, sizeof *s.sums);
-  s.out = cs_mem_array(memory, TILE, sizeof *s.out);
-  if (status == CELSPAN_OK && (!s.row || !s.sums || !s.out))
-    status = cs_fail_memory(context);
-  if (status == CELSPAN_OK)
-    status = cs_defocus_samples_make(&s.samples, maker, first * slices->factor);
-  if (status == CELSPAN_OK)
+  celspan_status status = cs_defocus_samples_begin(maker, first * slices->factor, rows,
+                                                   samples + TILE + sums, &s.samples);
+  if (status == CELSPAN_OK) {
+    s.row = s.samples.room;
+    s.out = s.row + samples;
+    s.sums = s.out + TILE;
     cs_defocus_samples_sum(&s.samples, &tiles, nodes);
-  cs_defocus_samples_finish(&s.samples, memory);
-  cs_mem_free(memory, s.row, samples * sizeof *s.row);
-  cs_mem_free(memory, s.sums, sums * sizeof *s.sums);
-  cs_mem_free(memory, s.out, TILE * sizeof *s.out);
+  }
+  cs_defocus_samples_finish(&s.samples, maker->context->memory);
   return status;
 }
