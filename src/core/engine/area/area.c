@@ -170,32 +170,13 @@ static celspan_status walk_interval(row_walk *w, const cs_interval *interval) {
   return CELSPAN_OK;
 }
 
-/* Whether an interval is two boundaries that cross and may count as straight: if they have bends,
- * the bends lie on their chords. */
-static bool is_pair(const cs_area *area, const cs_interval *interval) {
-  const cs_active *active = area->tools.active;
-  size_t i = interval->low;
-  return interval->high - i == 2 && interval->events.low > interval->events.high &&
-         !area->edges.is_bent[i] && !area->edges.is_bent[i + 1] &&
-         active->x_next[i] > active->x_next[i + 1];
-}
-
-static celspan_status walk_pair(row_walk *w, const cs_interval *interval) {
-  cs_area *area = w->area;
-  size_t low = interval->low;
-  CS_TRY(begin_item(area, &w->cells[low], low, interval->extent.low));
-  CS_TRY(cs_local_sweep_pair(&area->sweep, area->tools.active, low));
-  cs_window_end_item(&area->target.window, &w->cells[interval->high]);
-  return CELSPAN_OK;
-}
-
 static celspan_status walk_row(row_walk *w) {
   const cs_area *area = w->area;
   for (size_t k = 0; k < w->intervals->count; k++) {
     const cs_interval *interval = &w->intervals->intervals[k];
     CS_TRY(walk_alone(w, interval->low, interval->extent.low));
     w->visible = find_visible(area, w->visible, interval->high);
-    CS_TRY(is_pair(area, interval) ? walk_pair(w, interval) : walk_interval(w, interval));
+    CS_TRY(walk_interval(w, interval));
   }
   return walk_alone(w, area->tools.active->count, area->tools.width);
 }

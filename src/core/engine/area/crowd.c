@@ -18,8 +18,8 @@ void cs_crowd_finish(cs_crowd *crowd, cs_memory *memory) {
   cs_mem_free(memory, crowd->segments, crowd->segment_capacity * sizeof *crowd->segments);
   cs_mem_free(memory, crowd->columns, crowd->column_capacity * sizeof *crowd->columns);
   cs_mem_free(memory, crowd->order, crowd->order_capacity * sizeof *crowd->order);
-  cs_mem_free(memory, crowd->here, crowd->here_capacity * sizeof *crowd->here);
-  cs_mem_free(memory, crowd->next, crowd->next_capacity * sizeof *crowd->next);
+  cs_mem_free(memory, crowd->here.list, crowd->here.capacity * sizeof *crowd->here.list);
+  cs_mem_free(memory, crowd->next.list, crowd->next.capacity * sizeof *crowd->next.list);
   cs_mem_free(memory, crowd->crossings, crowd->crossing_capacity * sizeof *crowd->crossings);
   *crowd = (cs_crowd){0};
 }
@@ -165,19 +165,19 @@ static inline uint32_t layer_of(const cs_crowd *crowd, size_t k) {
 /* The group that follows; false after the last one. */
 static bool next_group(const cs_crowd *crowd, group *g) {
   size_t k = g->segment = g->segment_end, s = g->step = g->step_end;
-  bool has_segment = k < crowd->order_count, has_step = s < crowd->here_count;
+  bool has_segment = k < crowd->order_count, has_step = s < crowd->here.count;
   if (!has_segment && !has_step)
     return false;
-  g->layer = has_segment ? layer_of(crowd, k) : crowd->here[s].layer;
-  if (has_step && crowd->here[s].layer > g->layer)
-    g->layer = crowd->here[s].layer;
+  g->layer = has_segment ? layer_of(crowd, k) : crowd->here.list[s].layer;
+  if (has_step && crowd->here.list[s].layer > g->layer)
+    g->layer = crowd->here.list[s].layer;
   for (; k < crowd->order_count && layer_of(crowd, k) == g->layer; k++)
     continue;
-  for (; s < crowd->here_count && crowd->here[s].layer == g->layer; s++)
+  for (; s < crowd->here.count && crowd->here.list[s].layer == g->layer; s++)
     continue;
   g->segment_end = k;
   g->step_end = s;
-  g->made = crowd->next_count;
+  g->made = crowd->next.count;
   return true;
 }
 
@@ -193,7 +193,7 @@ static int add_lines(const drawing *d, const group *g) {
   int32_t winding = d->composer->presences[g->layer].winding, y = 0;
   size_t first = pixel->solver.line_count;
   for (size_t s = g->step; s < g->step_end; s++) {
-    const cs_crowd_step *step = &crowd->here[s];
+    const cs_crowd_step *step = &crowd->here.list[s];
     add_line(pixel, (cs_crowd_line){0, y, 0, step->y, winding});
     winding += step->change;
     y = step->y;
@@ -210,15 +210,15 @@ static int add_lines(const drawing *d, const group *g) {
 /* Changes the winding of the group's layer in the next column, below a height. Steps that cancel
  * out stay, as nothing, until all are made. */
 static inline void add_step(cs_crowd *crowd, const group *g, int32_t y, int32_t change) {
-  size_t k = crowd->next_count;
-  for (; k > g->made && crowd->next[k - 1].y >= y; k--)
-    if (crowd->next[k - 1].y == y) {
-      crowd->next[k - 1].change += change;
+  size_t k = crowd->next.count;
+  for (; k > g->made && crowd->next.list[k - 1].y >= y; k--)
+    if (crowd->next.list[k - 1].y == y) {
+      crowd->next.list[k - 1].change += change;
       return;
     }
-  for (size_t i = crowd->next_count++; i > k; i--)
-    crowd->next[i] = crowd->next[i - 1];
-  crowd->next[k] = (cs_crowd_step){g->layer, y, change};
+  for (size_t i = crowd->next.count++; i > k; i--)
+    crowd->next.list[i] = crowd->next.list[i - 1];
+  crowd->next.list[k] = (cs_crowd_step){g->layer, y, change};
 }
 
 /* Makes the steps of the layer at the left side of the next column. What changes at the top
@@ -226,21 +226,21 @@ static inline void add_step(cs_crowd *crowd, const group *g, int32_t y, int32_t 
 static celspan_status pass_group(const drawing *d, const group *g) {
   cs_crowd *crowd = d->crowd;
   for (size_t s = g->step; s < g->step_end; s++)
-    crowd->next[crowd->next_count++] = crowd->here[s];
+    crowd->next.list[crowd->next.count++] = crowd->here.list[s];
   for (size_t k = g->segment; k < g->segment_end; k++) {
     const cs_crowd_segment *f = &crowd->segments[(uint32_t)crowd->order[k]];
     add_step(crowd, g, f->ya, f->edge % 2 ? 1 : -1);
     add_step(crowd, g, f->yb, f->edge % 2 ? -1 : 1);
   }
-  size_t end = crowd->next_count, at = g->made;
-  int32_t crossed = at < end && crowd->next[at].y == 0 ? crowd->next[at++].change : 0;
-  crowd->next_count = g->made;
+  size_t end = crowd->next.count, at = g->made;
+  int32_t crossed = at < end && crowd->next.list[at].y == 0 ? crowd->next.list[at++].change : 0;
+  crowd->next.count = g->made;
   for (; at < end; at++)
-    if (crowd->next[at].change != 0 && crowd->next[at].y < CS_CROWD_UNIT)
-      crowd->next[crowd->next_count++] = crowd->next[at];
+    if (crowd->next.list[at].change != 0 && crowd->next.list[at].y < CS_CROWD_UNIT)
+      crowd->next.list[crowd->next.count++] = crowd->next.list[at];
   return crossed == 0 ? CELSPAN_OK
                       : CS_APPEND(d->context, crowd->crossings, crowd->crossing_count,
-                                  crowd->crossing_capacity, (cs_crowd_crossing){g->layer, crossed});
+                                  crowd->crossing_capacity, (cs_crossing){g->layer, crossed});
 }
 
 static inline bool is_inside(const cs_presence *presence, int32_t winding) {
@@ -251,7 +251,7 @@ static inline bool is_inside(const cs_presence *presence, int32_t winding) {
 static void cross(const drawing *d, size_t from) {
   cs_crowd *crowd = d->crowd;
   for (size_t i = from; i < crowd->crossing_count; i++) {
-    const cs_crowd_crossing *at = &crowd->crossings[i];
+    const cs_crossing *at = &crowd->crossings[i];
     const cs_presence *presence = &d->composer->presences[at->layer];
     bool was_inside = is_inside(presence, presence->winding);
     cs_composer_cross(d->composer, at->layer, at->direction);
@@ -265,10 +265,10 @@ static void cross(const drawing *d, size_t from) {
 static celspan_status pass_column(drawing *d, int32_t p, cs_v4 *colour, bool *is_cell) {
   cs_crowd *crowd = d->crowd;
   cs_crowd_pixel *pixel = &crowd->pixel;
-  size_t most = crowd->order_count + crowd->here_count, from = crowd->crossing_count;
-  CS_TRY(CS_RESERVE(d->context, crowd->next, crowd->next_capacity, 2 * most + 2));
+  size_t most = crowd->order_count + crowd->here.count, from = crowd->crossing_count;
+  CS_TRY(CS_RESERVE(d->context, crowd->next.list, crowd->next.capacity, 2 * most + 2));
   CS_TRY(cs_crowd_pixel_begin(pixel, most));
-  crowd->next_count = 0;
+  crowd->next.count = 0;
   *is_cell = true;
   for (group g = {0}; next_group(crowd, &g);) {
     bool was_hidden = pixel->is_hidden;
@@ -277,19 +277,15 @@ static celspan_status pass_column(drawing *d, int32_t p, cs_v4 *colour, bool *is
     CS_TRY(pass_group(d, &g));
     const cs_presence *presence = &d->composer->presences[g.layer];
     int32_t change = crowd->crossing_count > crossed ? crowd->crossings[crossed].direction : 0;
-    *is_cell &= was_hidden || (crowd->next_count == g.made &&
+    *is_cell &= was_hidden || (crowd->next.count == g.made &&
                                whole == is_inside(presence, presence->winding + change));
   }
   if (!*is_cell && p >= d->first)
     CS_TRY(cs_crowd_pixel_colour(pixel, colour));
   cross(d, from);
-  cs_crowd_step *here = crowd->here;
-  size_t capacity = crowd->here_capacity;
+  cs_crowd_steps here = crowd->here;
   crowd->here = crowd->next;
-  crowd->here_capacity = crowd->next_capacity;
-  crowd->here_count = crowd->next_count;
   crowd->next = here;
-  crowd->next_capacity = capacity;
   return pixel->failure;
 }
 
@@ -369,7 +365,7 @@ celspan_status cs_crowd_draw(cs_crowd *crowd, cs_local_sweep *sweep, cs_extent e
                .left = sweep->left};
   crowd->pixel.composer = d.composer;
   crowd->pixel.failure = CELSPAN_OK;
-  crowd->here_count = crowd->crossing_count = 0;
+  crowd->here.count = crowd->crossing_count = 0;
   cs_crowd_pixel_forget(&crowd->pixel);
   celspan_status status = draw_columns(&d, right);
   go_back(&d);

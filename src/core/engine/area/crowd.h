@@ -35,23 +35,20 @@ typedef struct cs_crowd_step {
   int32_t y, change;
 } cs_crowd_step;
 
-/* A crossing of the composer. */
-typedef struct cs_crowd_crossing {
-  uint32_t layer;
-  int32_t direction;
-} cs_crowd_crossing;
+typedef struct cs_crowd_steps {
+  cs_crowd_step *list; /* the nearest layers first */
+  size_t count, capacity;
+} cs_crowd_steps;
 
 /* The memory that a worker keeps for crowds. */
 typedef struct cs_crowd {
   cs_crowd_pixel pixel;
   cs_crowd_segment *segments;
-  uint32_t *columns;   /* by column, from the one left of the interval: its first segment */
-  uint64_t *order;     /* the segments of a column, the nearest layers first */
-  cs_crowd_step *here; /* the steps at the left side of a column, the nearest layers first */
-  cs_crowd_step *next; /* and of the next column */
-  cs_crowd_crossing *crossings;
+  uint32_t *columns;         /* by column, from the one left of the interval: its first segment */
+  uint64_t *order;           /* the segments of a column, the nearest layers first */
+  cs_crowd_steps here, next; /* at the left side of a column, and of the next one */
+  cs_crossing *crossings;    /* of the composer */
   size_t segment_count, segment_capacity, column_capacity, order_count, order_capacity;
-  size_t here_count, here_capacity, next_count, next_capacity;
   size_t crossing_count, crossing_capacity;
 } cs_crowd;
 

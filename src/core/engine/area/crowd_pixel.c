@@ -1,10 +1,7 @@
 #include "engine/area/crowd_pixel.h"
 
 void cs_crowd_pixel_finish(cs_crowd_pixel *pixel, cs_memory *memory) {
-  cs_crowd_whole *w = &pixel->whole;
-  cs_mem_free(memory, w->layers, w->layer_capacity * sizeof *w->layers);
-  cs_mem_free(memory, w->front, w->front_capacity * sizeof *w->front);
-  cs_mem_free(memory, w->back, w->back_capacity * sizeof *w->back);
+  cs_mem_free(memory, pixel->whole.layers, pixel->whole.capacity * sizeof *pixel->whole.layers);
   cs_crowd_solver_finish(&pixel->solver, memory);
   cs_mem_free(memory, pixel->between, pixel->between_capacity * sizeof *pixel->between);
 }
@@ -17,7 +14,7 @@ static inline bool is_dark(cs_v4 through) {
 /* ---------------------------------------------------------------- whole layers */
 
 void cs_crowd_pixel_forget(cs_crowd_pixel *pixel) {
-  pixel->whole.count = pixel->whole.front_count = pixel->whole.back_count = 0;
+  pixel->whole.count = 0;
   pixel->whole.is_all = false;
 }
 
@@ -28,7 +25,7 @@ static bool learn(cs_crowd_pixel *pixel) {
   uint32_t end = w->count > 0 ? w->layers[w->count - 1] : (uint32_t)composer->stack->layer_count;
   uint32_t layer = cs_set_below(composer->set, composer->filled, end);
   w->is_all = layer == CS_STACK_NONE;
-  if (!w->is_all && CS_APPEND(composer->context, w->layers, w->count, w->layer_capacity, layer)) {
+  if (!w->is_all && CS_APPEND(composer->context, w->layers, w->count, w->capacity, layer)) {
     pixel->failure = CELSPAN_NO_MEMORY;
     w->is_all = true;
   }
@@ -55,58 +52,20 @@ static size_t place_of(const cs_crowd_whole *w, uint32_t layer) {
 
 void cs_crowd_pixel_change(cs_crowd_pixel *pixel, uint32_t layer) {
   cs_crowd_whole *w = &pixel->whole;
-  size_t place = place_of(w, layer), behind = w->count - place;
+  size_t place = place_of(w, layer);
   if (place == w->count && !w->is_all)
     return;
-  if (behind > 0 && w->layers[place] == layer) {
+  if (place < w->count && w->layers[place] == layer) {
     for (size_t k = place + 1; k < w->count; k++)
       w->layers[k - 1] = w->layers[k];
     w->count--;
-    behind--;
-  } else if (CS_APPEND(pixel->composer->context, w->layers, w->count, w->layer_capacity, layer)) {
+  } else if (CS_APPEND(pixel->composer->context, w->layers, w->count, w->capacity, layer)) {
     pixel->failure = CELSPAN_NO_MEMORY;
-    return;
   } else {
     for (size_t k = w->count - 1; k > place; k--)
       w->layers[k] = w->layers[k - 1];
     w->layers[place] = layer;
   }
-  w->front_count = w->front_count > place + 1 ? place + 1 : w->front_count;
-  w->back_count = w->back_count > behind + 1 ? behind + 1 : w->back_count;
-}
-
-static inline cs_over_pair pair_of(const cs_crowd_pixel *pixel, size_t place) {
-  const cs_layer *layer = &pixel->composer->stack->layers[pixel->whole.layers[place]];
-  return (cs_over_pair){layer->s, layer->t};
-}
-
-/* Adds a pair to an array of sums. */
-static cs_over_pair add_sum(cs_crowd_pixel *pixel, cs_over_pair **sums, size_t *count,
-                            size_t *capacity, cs_over_pair sum) {
-  if (CS_APPEND(pixel->composer->context, *sums, *count, *capacity, sum))
-    pixel->failure = CELSPAN_NO_MEMORY;
-  return sum;
-}
-
-/* Begins the walk in front of a layer, with the light of all in front of it. */
-static void walk_to(cs_crowd_pixel *pixel, uint32_t layer) {
-  cs_crowd_whole *w = &pixel->whole;
-  size_t n = w->front_count, known = place_of(w, layer);
-  cs_over_pair sum = n > 0 ? w->front[n - 1] : cs_over_pair_clear;
-  if (n == 0)
-    add_sum(pixel, &w->front, &w->front_count, &w->front_capacity, sum);
-  for (n = n > 0 ? n - 1 : 0; (n < known || known == w->count) && !is_dark(sum.t); n++) {
-    if (!knows(pixel, n) || w->layers[n] <= layer || pixel->failure != CELSPAN_OK)
-      break;
-    sum = add_sum(pixel, &w->front, &w->front_count, &w->front_capacity,
-                  cs_over_pair_over(sum, pair_of(pixel, n)));
-  }
-  if (known < n)
-    sum = w->front[n = known];
-  pixel->place = n;
-  pixel->light = sum.e;
-  pixel->through = sum.t;
-  pixel->is_hidden = is_dark(sum.t);
 }
 
 static inline void add_whole(cs_crowd_pixel *pixel, cs_over_pair pair) {
@@ -134,33 +93,15 @@ static void walk_on(cs_crowd_pixel *pixel, int64_t layer) {
   pixel->is_hidden = is_hidden;
 }
 
-/* Adds all layers that are left: where many are visible, from sums that are kept. */
-static void walk_home(cs_crowd_pixel *pixel) {
-  cs_crowd_whole *w = &pixel->whole;
-  if (!pixel->composer->table) {
-    walk_on(pixel, -1);
-    return;
-  }
-  while (knows(pixel, w->count))
-    continue;
-  size_t n = w->back_count, wanted = w->count - pixel->place;
-  cs_over_pair sum = n > 0 ? w->back[n - 1] : cs_over_pair_clear;
-  if (n == 0)
-    add_sum(pixel, &w->back, &w->back_count, &w->back_capacity, sum);
-  for (n = n > 0 ? n - 1 : 0; n < wanted && pixel->failure == CELSPAN_OK; n++)
-    sum = add_sum(pixel, &w->back, &w->back_count, &w->back_capacity,
-                  cs_over_pair_over(pair_of(pixel, w->count - 1 - n), sum));
-  if (pixel->failure == CELSPAN_OK)
-    add_whole(pixel, w->back[wanted]);
-}
-
 /* ---------------------------------------------------------------- partial layers */
 
 celspan_status cs_crowd_pixel_begin(cs_crowd_pixel *pixel, size_t most) {
   celspan_context *context = pixel->composer->context;
   pixel->solver.line_count = pixel->solver.partial_count = 0;
+  pixel->place = 0;
+  pixel->light = cs_v4_all(0);
+  pixel->through = cs_v4_all(1);
   pixel->is_hidden = false;
-  pixel->place = SIZE_MAX;
   CS_TRY(CS_RESERVE(context, pixel->solver.lines, pixel->solver.line_capacity, 2 * most));
   CS_TRY(CS_RESERVE(context, pixel->between, pixel->between_capacity, most + 1));
   return CS_RESERVE(context, pixel->solver.partials, pixel->solver.partial_capacity, most);
@@ -263,8 +204,6 @@ static double add_partial(cs_crowd_pixel *pixel, uint32_t layer, size_t first, s
 int cs_crowd_pixel_add(cs_crowd_pixel *pixel, uint32_t layer, size_t first, size_t sides) {
   const cs_layer *own = &pixel->composer->stack->layers[layer];
   cs_crowd_partial *partial = &pixel->solver.partials[pixel->solver.partial_count];
-  if (pixel->place == SIZE_MAX)
-    walk_to(pixel, layer);
   walk_on(pixel, layer);
   double area = pixel->is_hidden ? 0 : add_partial(pixel, layer, first, sides, partial);
   if (area <= 0 || area >= 1) {
@@ -285,8 +224,7 @@ int cs_crowd_pixel_add(cs_crowd_pixel *pixel, uint32_t layer, size_t first, size
 celspan_status cs_crowd_pixel_colour(cs_crowd_pixel *pixel, cs_v4 *out) {
   cs_over over;
   size_t count = pixel->solver.partial_count;
-  if (!pixel->is_hidden)
-    walk_home(pixel);
+  walk_on(pixel, -1);
   pixel->between[count] = pixel->light;
   if (count > 0)
     CS_TRY(cs_crowd_solver_solve(&pixel->solver, pixel->composer->context));

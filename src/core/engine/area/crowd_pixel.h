@@ -16,10 +16,7 @@
  * be reached. */
 typedef struct cs_crowd_whole {
   uint32_t *layers;
-  cs_over_pair *front; /* item i: layers [0, i) */
-  cs_over_pair *back;  /* item i: the last i layers; if all are known */
-  size_t count, front_count, back_count;
-  size_t layer_capacity, front_capacity, back_capacity;
+  size_t count, capacity;
   bool is_all;
 } cs_crowd_whole;
 

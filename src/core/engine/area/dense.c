@@ -13,7 +13,6 @@
 void cs_dense_finish(cs_dense *dense, cs_memory *memory) {
   cs_mem_free(memory, dense->places, dense->place_capacity * sizeof *dense->places);
   cs_mem_free(memory, dense->spare, dense->spare_capacity * sizeof *dense->spare);
-  cs_mem_free(memory, dense->crossings, dense->crossing_capacity * sizeof *dense->crossings);
   cs_mem_free(memory, dense->sums, dense->sum_capacity * sizeof *dense->sums);
   *dense = (cs_dense){0};
 }
@@ -98,11 +97,7 @@ static const cs_dense_place *sort_places(const drawing *d, cs_dense_place *place
 /* ---------------------------------------------------------------- sub-rows */
 
 static inline void cross(const drawing *d, const cs_dense_place *place, int32_t sign) {
-  const cs_dense_crossing *at = &d->dense->crossings[place->member];
-  if (at->span == UINT32_MAX)
-    cs_composer_cross(d->sweep->composer, at->layer, sign * at->direction);
-  else
-    cs_composer_cross_span(d->sweep->composer, at->layer, at->span, sign * at->direction);
+  cs_member_cross(cs_local_sweep_member(d->sweep, place->member), d->sweep->composer, sign);
 }
 
 static celspan_status colour_of(const drawing *d, const cs_cell *cell, int32_t pixel,
@@ -194,16 +189,8 @@ static celspan_status draw_means(const drawing *d, int all, const cs_cell *right
 static celspan_status reserve(const drawing *d) {
   cs_dense *dense = d->dense;
   CS_TRY(CS_RESERVE(d->context, dense->places, dense->place_capacity, TOGETHER * d->members));
-  CS_TRY(CS_RESERVE(d->context, dense->crossings, dense->crossing_capacity, d->members));
   CS_TRY(CS_RESERVE(d->context, dense->spare, dense->spare_capacity, d->members));
   return CS_RESERVE(d->context, dense->sums, dense->sum_capacity, (size_t)d->count);
-}
-
-static void list_crossings(const drawing *d) {
-  for (size_t i = 0; i < d->members; i++) {
-    const cs_member *member = cs_local_sweep_member(d->sweep, i);
-    d->dense->crossings[i] = (cs_dense_crossing){member->layer, member->span, member->direction};
-  }
 }
 
 celspan_status cs_dense_draw(cs_dense *dense, cs_local_sweep *sweep, cs_extent extent,
@@ -221,7 +208,6 @@ celspan_status cs_dense_draw(cs_dense *dense, cs_local_sweep *sweep, cs_extent e
   CS_TRY(reserve(&d));
   if (d.count > 0) /* otherwise no member is in the frame, and the room may not exist yet */
     memset(dense->sums, 0, (size_t)d.count * sizeof *dense->sums);
-  list_crossings(&d);
   for (int first = 0, end; first < all; first = end) {
     end = first + TOGETHER < all ? first + TOGETHER : all;
     CS_TRY(add_sub_rows(&d, first, end, all));

@@ -28,17 +28,10 @@ typedef struct cs_dense_place {
   uint32_t member;
 } cs_dense_place;
 
-/* The changes made by crossing a member. */
-typedef struct cs_dense_crossing {
-  uint32_t layer, span; /* span: as in a member */
-  int32_t direction;
-} cs_dense_crossing;
-
 typedef struct cs_dense {
-  cs_dense_place *places;       /* the places of several sub-rows, room for all members each */
-  cs_dense_place *spare;        /* room for all members */
-  cs_dense_crossing *crossings; /* one for each member */
-  size_t place_capacity, spare_capacity, crossing_capacity;
+  cs_dense_place *places; /* the places of several sub-rows, room for all members each */
+  cs_dense_place *spare;  /* room for all members */
+  size_t place_capacity, spare_capacity;
   cs_sum4 *sums; /* one for each pixel of the interval */
   size_t sum_capacity;
 } cs_dense;

@@ -1,7 +1,6 @@
 #include "engine/area/intersections.h"
 
 #include "base/vector.h"
-#include "engine/area/extent.h"
 
 #include <math.h>
 
@@ -187,60 +186,6 @@ static inline double segment_x(const celspan_point *end, double y) {
   return y >= end->y ? end->x : x;
 }
 
-/* ---------------------------------------------------------------- slabs without any */
-
-/* The part of an edge between a height, where it is at x, and a lower height. */
-typedef struct way {
-  cs_extent extent;
-  double foot; /* x at the lower height */
-  uint32_t at; /* the segment at the lower height */
-} way;
-
-static inline way find_way(const cs_active_edge *edge, double x, double y0, double y1) {
-  way w = {{x, x}, 0, edge->at};
-  w.at += edge->points[w.at].y <= y0;
-  for (; edge->points[w.at].y < y1; w.at++)
-    cs_extent_add(&w.extent, edge->points[w.at].x);
-  w.foot = segment_x(edge->points + w.at, y1);
-  cs_extent_add(&w.extent, w.foot);
-  return w;
-}
-
-/* Whether the left of two neighbouring edges lies right of the other one at any vertex below y0, or
- * at y1. */
-static bool do_cross(const cs_active_edge *left, const cs_active_edge *right, double y0,
-                     double y1) {
-  const celspan_point *a = left->points + left->at, *b = right->points + right->at;
-  for (double y = y0; y < y1;) {
-    a += a->y <= y;
-    b += b->y <= y;
-    y = a->y < b->y ? a->y : b->y;
-    y = y < y1 ? y : y1;
-    if (segment_x(a, y) > segment_x(b, y))
-      return true;
-  }
-  return false;
-}
-
-/* Goes down to y1 at once if no two neighbours cross before y1, as is nearly always the case.
- * false: some neighbours cross, and nothing has changed. */
-static bool go_straight(cs_intersections *m, size_t count, double y0, double y1) {
-  double high = -INFINITY;
-  for (size_t i = 0; i < count; i++) {
-    way w = find_way(&m->edges[i], m->foot[i], y0, y1);
-    if (w.extent.low < high && do_cross(&m->edges[i - 1], &m->edges[i], y0, y1))
-      return false;
-    high = w.extent.high;
-    m->top[i] = w.foot; /* kept here until it is known that no edges cross */
-    m->last[i] = w.at;
-  }
-  for (size_t i = 0; i < count; i++) {
-    m->foot[i] = m->top[i];
-    m->edges[i].at = m->last[i];
-  }
-  return true;
-}
-
 /* ---------------------------------------------------------------- steps */
 
 /* Moves on to the segments that continue below y, where a step has ended. Returns the height at
@@ -266,8 +211,6 @@ celspan_status cs_intersections_find(cs_intersections *m, celspan_context *conte
     m->order[i] = (uint32_t)i;
     m->first[i] = CS_INTERSECTIONS_NONE;
   }
-  if (go_straight(m, count, y0, y1))
-    return CELSPAN_OK;
   for (double y = y0, end; y < y1; y = end) {
     end = begin_step(m, count, y, y1);
     for (size_t place = 0; place < count; place++) {

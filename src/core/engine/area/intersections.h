@@ -10,10 +10,9 @@
  *            |     \/         intersection of a and c
  *      y1    b     c a
  *
- * In each step, two neighbours whose feet are out of order cross on the way. Steps are only made
- * where any two do: mostly all neighbours lie beside each other from y0 to y1, or are in order at
- * every vertex. Only places and heights are found here; the cells between them are composed
- * afterwards, place by place (local_sweep.c).
+ * In each step, two neighbours whose feet are out of order cross on the way. Only places and
+ * heights are found here; the cells between them are composed afterwards, place by place
+ * (local_sweep.c).
  *
  * Invariant: swaps are always of neighbours, so an order exists at every moment, there are no more
  * of them than inversions, and at the foot all are in order.

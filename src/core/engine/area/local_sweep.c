@@ -90,13 +90,6 @@ static celspan_status flush_all(cs_local_sweep *sweep, double y) {
 
 /* ---------------------------------------------------------------- cells */
 
-static void cross(cs_composer *composer, const cs_member *member, int32_t sign) {
-  if (member->span == UINT32_MAX)
-    cs_composer_cross(composer, member->layer, sign * member->direction);
-  else
-    cs_composer_cross_span(composer, member->layer, member->span, sign * member->direction);
-}
-
 static inline const cs_member *member_at(const cs_local_sweep *sweep, size_t place) {
   return sweep->members[sweep->is_low ? sweep->intersections.order[place] : place];
 }
@@ -105,9 +98,9 @@ static inline const cs_member *member_at(const cs_local_sweep *sweep, size_t pla
 static void cross_to(cs_local_sweep *sweep, size_t place) {
   cs_composer *composer = sweep->composer;
   for (; sweep->crossed < place; sweep->crossed++)
-    cross(composer, member_at(sweep, sweep->crossed), 1);
+    cs_member_cross(member_at(sweep, sweep->crossed), composer, 1);
   for (; sweep->crossed > place; sweep->crossed--)
-    cross(composer, member_at(sweep, sweep->crossed - 1), -1);
+    cs_member_cross(member_at(sweep, sweep->crossed - 1), composer, -1);
 }
 
 /* The cell at the composer's place. known: NULL, or a cell that is returned if it has the same set
@@ -170,8 +163,8 @@ static celspan_status compose_down(cs_local_sweep *sweep, size_t j) {
   for (cs_intersection *intersection = first; intersection;
        intersection = intersection_at(sweep, intersection->next)) {
     if (intersection != leaves)
-      cross(composer, members[intersection->left], -1);
-    cross(composer, members[intersection->right], 1);
+      cs_member_cross(members[intersection->left], composer, -1);
+    cs_member_cross(members[intersection->right], composer, 1);
     CS_TRY(compose_below(sweep, intersection));
   }
   sweep->crossed = j + 1;
@@ -186,8 +179,8 @@ static celspan_status compose_up(cs_local_sweep *sweep, size_t j) {
   for (cs_intersection *intersection = intersection_at(sweep, sweep->intersections.last[j]);
        intersection; intersection = intersection_at(sweep, intersection->previous)) {
     CS_TRY(compose_below(sweep, intersection));
-    cross(sweep->composer, members[intersection->right], -1);
-    cross(sweep->composer, members[intersection->left], 1);
+    cs_member_cross(members[intersection->right], sweep->composer, -1);
+    cs_member_cross(members[intersection->left], sweep->composer, 1);
   }
   sweep->crossed = j + 1;
   sweep->is_low = false;
@@ -436,47 +429,4 @@ celspan_status cs_local_sweep_replay(cs_local_sweep *sweep) {
     y = next;
     CS_TRY(change_members(sweep, y));
   }
-}
-
-/* ---------------------------------------------------------------- pairs */
-
-static celspan_status draw(cs_local_sweep *sweep, celspan_point above, celspan_point below,
-                           const cs_cell *left, const cs_cell *right) {
-  if (!(below.y > above.y) || cs_composer_same(sweep->composer, left, right))
-    return CELSPAN_OK;
-  const cs_border border = {{above.x, above.y, below.x, below.y}, left, right};
-  return cs_target_add(sweep->target, &border);
-}
-
-/* The cell between two boundaries that have changed places: right of the second boundary, at x, and
- * left of the first. */
-static celspan_status cell_between(cs_local_sweep *sweep, cs_crossing second, double x,
-                                   const cs_cell **out) {
-  cs_composer *composer = sweep->composer;
-  cs_cell *cell = cs_arena_take(composer->context, sweep->arena, sizeof *cell);
-  if (!cell)
-    return CELSPAN_NO_MEMORY;
-  cs_composer_cross(composer, second.layer, second.direction);
-  cs_deferred_forward(&sweep->deferred, composer, x);
-  cs_composer_cell(composer, cell);
-  *out = cell;
-  cs_composer_cross(composer, second.layer, -second.direction);
-  cs_deferred_to(&sweep->deferred, composer, -INFINITY);
-  return composer->failure;
-}
-
-celspan_status cs_local_sweep_pair(cs_local_sweep *sweep, const cs_active *active, size_t i) {
-  const cs_cell *left = sweep->left, *right = left + 2, *between;
-  celspan_point a = {active->x[i], active->y}, b = {active->x[i + 1], active->y};
-  celspan_point a_foot = {active->x_next[i], active->y_next};
-  celspan_point b_foot = {active->x_next[i + 1], active->y_next};
-  double top = b.x - a.x, foot = a_foot.x - b_foot.x, u = top / (top + foot);
-  double y = a.y + (a_foot.y - a.y) * u;
-  celspan_point a_meets = {a.x + (a_foot.x - a.x) * u, y};
-  celspan_point b_meets = {b.x + (b_foot.x - b.x) * u, y};
-  CS_TRY(draw(sweep, a, a_meets, left, left + 1));
-  CS_TRY(draw(sweep, b, b_meets, left + 1, right));
-  CS_TRY(cell_between(sweep, active->crossing[i + 1], b_meets.x, &between));
-  CS_TRY(draw(sweep, b_meets, b_foot, left, between));
-  return draw(sweep, a_meets, a_foot, between, right);
 }

@@ -82,6 +82,13 @@ static inline cs_extent cs_member_extent(const cs_member *member) {
   return extent;
 }
 
+static inline void cs_member_cross(const cs_member *member, cs_composer *composer, int32_t sign) {
+  if (member->span == UINT32_MAX)
+    cs_composer_cross(composer, member->layer, sign * member->direction);
+  else
+    cs_composer_cross_span(composer, member->layer, member->span, sign * member->direction);
+}
+
 typedef struct cs_local_sweep {
   cs_composer *composer; /* borrowed */
   cs_arena *arena;       /* borrowed: of the row, for cells */
@@ -125,9 +132,3 @@ cs_extent cs_local_sweep_extent(const cs_local_sweep *sweep);
 /* Draws the members through the row. The composer is left of all members, before and after the
  * call. */
 CELSPAN_CHECKED celspan_status cs_local_sweep_replay(cs_local_sweep *sweep);
-
-/* The same for boundaries i and i + 1, which are straight through the row and cross once, as in
- * nearly all local sweeps. Only two fields are set: `left`, the cell left of both, and
- * `deferred`. */
-CELSPAN_CHECKED celspan_status cs_local_sweep_pair(cs_local_sweep *sweep, const cs_active *active,
-                                                   size_t i);
