@@ -125,51 +125,26 @@ static celspan_status run_linear(arc *a) {
   return put_until(a, a->end);
 }
 
-/* Half the length of the row inside a circle around the centre; negative if they do not meet. */
-static double half_chord(const arc *a, double at, double speed) {
-  double square = at * at - a->bend / speed;
-  return square > 0 ? sqrt(square / speed) : -1;
-}
-
-static celspan_status run_radial(arc *a) {
-  const celspan_texture *texture = texture_of(a);
-  double su = a->table->shade->plane[0][0], sv = a->table->shade->plane[1][0];
-  double speed = su * su + sv * sv, cross = a->u * sv - a->v * su;
-  if (!(speed > 0))
-    return put_until(a, a->end);
-  double nearest = -(a->u * su + a->v * sv) / speed;
-  a->bend = cross * cross;
-  for (size_t i = texture->variation->stop_count; i-- > 0;) {
-    double half = half_chord(a, texture->variation->stops[i].at, speed);
-    if (half >= 0)
-      CS_TRY(put_until(a, nearest - half));
-  }
-  CS_TRY(put_until(a, nearest));
-  for (size_t i = 0; i < texture->variation->stop_count; i++) {
-    double half = half_chord(a, texture->variation->stops[i].at, speed);
-    if (half >= 0)
-      CS_TRY(put_until(a, nearest + half));
-  }
-  return put_until(a, a->end);
-}
-
-/* Where a row with a focus enters and leaves the circle of a place along the stops: the ends of the
- * interval where `at` is at most the place. False when row and circle do not meet. */
+/* Where a row enters and leaves the circle of a place along the stops: the ends of the interval
+ * where `at` is at most the place. False when row and circle do not meet. */
 static bool find_chord(const arc *a, double at, double *low, double *high) {
   const cs_shade *shade = a->table->shade;
   double su = shade->plane[0][0], sv = shade->plane[1][0], e = shade->eccentricity;
   double speed = su * su * (1 - e * e) + sv * sv;
   double b = a->u * su * (1 - e * e) + a->v * sv - at * e * su;
   double c = a->u * a->u * (1 - e * e) + a->v * a->v - 2 * at * e * a->u - at * at;
-  double root = b * b - speed * c;
-  if (!(root > 0))
-    return false;
-  *low = (-b - sqrt(root)) / speed;
-  *high = (-b + sqrt(root)) / speed;
-  return true;
+  double root = b * b - speed * c, square = at * at - a->bend / speed;
+  if (e > 0) {
+    *low = (-b - sqrt(root)) / speed;
+    *high = (-b + sqrt(root)) / speed;
+    return root > 0;
+  }
+  *low = -(a->u * su + a->v * sv) / speed - sqrt(square / speed);
+  *high = -(a->u * su + a->v * sv) / speed + sqrt(square / speed);
+  return square > 0;
 }
 
-static celspan_status run_focal(arc *a) {
+static celspan_status run_radial(arc *a) {
   const celspan_texture *texture = texture_of(a);
   const cs_shade *shade = a->table->shade;
   double su = shade->plane[0][0], sv = shade->plane[1][0], e = shade->eccentricity;
@@ -180,7 +155,7 @@ static celspan_status run_focal(arc *a) {
   for (size_t i = texture->variation->stop_count; i-- > 0;)
     if (find_chord(a, texture->variation->stops[i].at, &low, &high))
       CS_TRY(put_until(a, low));
-  /* Where `at` is least: beside the place that is nearest the focus. */
+  /* Where `at` is least: with a focus, beside the place that is nearest to it. */
   double beside = e * su * fabs(cross) / (speed * sqrt(speed - e * e * su * su));
   CS_TRY(put_until(a, beside - (a->u * su + a->v * sv) / speed));
   for (size_t i = 0; i < texture->variation->stop_count; i++)
@@ -206,7 +181,5 @@ celspan_status cs_gradient_run(cs_painter *painter, const cs_gradient_table *tab
            .v = q[1] * run.y + q[2],
            .from = run.x0,
            .end = run.x1};
-  if (table->shade->texture->kind == CS_TEXTURE_LINEAR)
-    return run_linear(&a);
-  return table->shade->eccentricity > 0 ? run_focal(&a) : run_radial(&a);
+  return table->shade->texture->kind == CS_TEXTURE_LINEAR ? run_linear(&a) : run_radial(&a);
 }

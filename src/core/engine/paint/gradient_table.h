@@ -56,13 +56,8 @@ CELSPAN_CHECKED celspan_status cs_gradient_table_find(cs_gradient_tables *tables
 
 /* The section that a place along the stops belongs to. */
 static inline size_t cs_gradient_table_section_at(const cs_shade *shade, double at) {
-  const celspan_texture *texture = shade->texture;
-  size_t section = 0;
-  if (at != at)
-    return texture->variation->stop_count + 1;
-  while (section < texture->variation->stop_count && texture->variation->stops[section].at <= at)
-    section++;
-  return section;
+  return at != at ? shade->texture->variation->stop_count + 1
+                  : cs_shade_stretch_stop_after(shade->texture, at);
 }
 
 /* How far along a section a place is, 0 to 1; any value where the step of the section is 0. */
