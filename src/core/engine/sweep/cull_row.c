@@ -132,21 +132,6 @@ static void add_chain(const walk *w, const cs_cull_crossing *crossing, footprint
   f->is_partial = true;
 }
 
-/* Whether a layer with the chains [from, end) may show in the row, or has chains that are kept
- * anyway. Left and right of all its chains a layer is not present. */
-static bool may_show(const walk *w, uint32_t from, uint32_t end) {
-  cs_cull_columns all = {CS_CULL_COLUMNS - 1, 0};
-  bool has_partial = false;
-  for (uint32_t k = from; k < end; k++) {
-    const cs_cull_crossing *crossing = &w->grid->crossing[k];
-    cs_cull_columns r = w->grid->columns[crossing->place];
-    all.low = r.low < all.low ? r.low : all.low;
-    all.high = r.high > all.high ? r.high : all.high;
-    has_partial |= is_partial(w, &w->grid->desc->set->chains[crossing->chain]);
-  }
-  return has_partial || (cs_cull_columns_mask(all) & w->veil->live);
-}
-
 /* The tiles that the chains [from, end) of one layer make certain to be inside, and those in which
  * it may be present. */
 static cs_cull_presence find_presence(const walk *w, uint32_t from, uint32_t end,
@@ -265,8 +250,6 @@ celspan_status cs_cull_row_walk(const cs_cull_grid *grid, cs_cull_job *job, int3
     }
     next = end_of(&w, from, layer);
     move_to(&w, layer);
-    if (~w.veil->live != 0 && !may_show(&w, from, next))
-      continue;
     cs_cull_presence presence =
         find_presence(&w, from, next, grid->desc->layers[layer].winding_mask);
     cull_layer(&w, layer, from, next, presence.certain, false);
