@@ -16,13 +16,14 @@ static uint64_t set[2] = {(uint64_t)1 << 63 | 0x12, 1};
 static const cs_stack stack = {.layer_count = 70};
 cs_composer composer = {.stack = &stack, .set = set};
 
-static double x[] = {2.75, 9}, x_next[] = {2.5, 9.5}, shares[] = {0.375, 0.75};
+static double x[] = {2.75, 9}, x_next[] = {2.5, 9.5};
+static float shares[] = {0.375f, 0.75f};
 static int32_t first[] = {2, 9}, end[] = {3, 10};
 static cs_crossing crossings[] = {{.layer = 0}, {.layer = 4}};
 static cs_cell cells[] = {{.length = 0}, {.colour = {0.5f, 0, 0, 1}}, {.length = 2}};
 static cs_active active = {.x = x, .x_next = x_next, .crossing = crossings, .count = 2};
 static cs_cells known = {.cells = cells, .known = 3};
 cs_area area = {.tools = {.active = &active, .cells = &known},
-                .edges = {.area = shares, .first = first, .end = end}};
+                .edges = {.one = shares, .first = first, .end = end}};
 
 int main(void) { return 0; }

@@ -58,7 +58,7 @@ class AreaPrinter:
             cell = self.cells[i + 1]
             yield "[%d]" % i, "layer %d at %g to %g: %g of [%d, %d), then %s" % (
                 active["crossing"][i]["layer"], active["x"][i], active["x_next"][i],
-                edges["area"][i], edges["first"][i], edges["end"][i],
+                edges["one"][i], edges["first"][i], edges["end"][i],
                 "a program" if cell["length"] else colour(cell["colour"]))
 
 

@@ -97,8 +97,7 @@ static celspan_status walk_alone(row_walk *w, size_t end, double next) {
     return add_boundaries(w, boundaries, w->visible - first);
   cs_direct_edges edges = {area->tools.active, &area->edges,
                            w->cells,           boundaries,
-                           w->visible - first, cs_edges_floor(next, area->tools.width),
-                           area->tools.width};
+                           w->visible - first, cs_edges_floor(next, area->tools.width)};
   return cs_window_edges(&area->target.window, &edges);
 }
 

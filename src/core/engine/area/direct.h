@@ -1,7 +1,6 @@
 /* Direct edges: boundaries that are drawn into the row at once, from their measurements, without
- * the borders of a window. This works for an edge that shares its pixels with no other edge, and
- * for a few edges that share pixels only with each other. Nearly all edges of nearly all rows are
- * of these two kinds.
+ * the borders of a window. This works for an edge that shares its pixels with no other edge, as
+ * nearly all edges of nearly all rows.
  *
  *              first           end           first, end: the columns that the edge crosses
  *              |               |
@@ -24,10 +23,7 @@
 #include "engine/compose/composer.h"
 #include "engine/span/row_writer.h"
 
-/* The most spans that one edge becomes, and the most columns that edges with shared pixels may
- * cross together. */
-#define CS_DIRECT_EACH 4
-#define CS_DIRECT_TOGETHER 32
+#define CS_DIRECT_EACH 4 /* the most spans that one edge becomes */
 
 typedef struct cs_direct_edges {
   const cs_active *active;
@@ -36,13 +32,11 @@ typedef struct cs_direct_edges {
   const uint32_t *boundaries; /* `count` of them, to be drawn from left to right */
   size_t count;
   int32_t next; /* everything that is drawn later lies at or right of this column */
-  int32_t width;
 } cs_direct_edges;
 
 /* Draws boundaries from the first one on and returns how many. It ends before a boundary between
  * cells that vary along the row, and before a boundary that only a window can draw. The boundaries
- * need room for CS_DIRECT_EACH spans each and CS_DIRECT_TOGETHER more; with this room at least one
- * is drawn. */
+ * need room for CS_DIRECT_EACH spans each. */
 CS_WIDE_DECLARE(size_t, cs_direct_draw, (const cs_direct_edges *direct, cs_row_writer *writer));
 
 /* The area right of a straight edge in the pixels of a row, as the weight of colours: in the first

@@ -7,17 +7,10 @@
  *       +--------+---+---+-----------+---
  *         span   span span               a plain edge: three spans, or two over one column
  *
- *       +--------+--------+--------+
- *       |    /###|########|##\     |     edges that share a pixel: their colour steps are summed
- *       |  /#####|#\  /###|####\   |     column by column (draw_group)
- *       +--------+--------+--------+
- *
  * Plain edges come first because nearly all are plain: their code does not depend on a branch that
  * the processor cannot predict.
  */
 #include "engine/area/direct.h"
-
-#include "engine/sweep/pieces.h"
 
 #include <stddef.h>
 
@@ -127,115 +120,18 @@ static inline void draw_short(cs_row_writer *writer, const cs_edges *edges, size
     cs_row_writer_to(writer, end, cs_v4_settled(base + step * edges->two[i]));
 }
 
-/* ---------------------------------------------------------------- together */
-
-static void add_piece(cs_sum4 *change, int32_t from, celspan_point above, celspan_point below,
-                      double height, int32_t width, const cs_sum4 *step) {
-  double low = cs_number_least(above.x, below.x), high = cs_number_most(above.x, below.x);
-  cs_direct_add(change, from,
-                (cs_direct_piece){above.x, below.x, height, cs_edges_floor(low, width),
-                                  cs_edges_ceil(high, width)},
-                step);
-}
-
-static void add_pieces(cs_sum4 *change, int32_t from, const cs_direct_edges *s, size_t i,
-                       const cs_sum4 *step) {
-  const cs_active *active = s->active;
-  const cs_bend *bend = s->edges->is_bent[i] ? cs_active_bend(active, i) : NULL;
-  double passed = 0; /* as a share of the row's height */
-  for (cs_pieces p = cs_pieces_of(active, i, bend); cs_pieces_next(&p);) {
-    double reached = p.rest > 0 ? cs_cover_round(p.below.y - active->y) : 1;
-    add_piece(change, from, p.above, p.below, reached - passed, s->width, step);
-    passed = reached;
-  }
-}
-
-static inline void add_edge(cs_sum4 *change, int32_t from, const cs_direct_edges *s, size_t i) {
-  const cs_edges *edges = s->edges;
-  int32_t first = edges->first[i], end = edges->end[i];
-  const cs_cell *left = &s->cells[i];
-  cs_sum4 step = CS_SUM4(left[1].colour) - CS_SUM4(left->colour);
-  if (end - first > 2) {
-    add_pieces(change, from, s, i, &step);
-    return;
-  }
-  double area = end > first ? edges->area[i] : 1, rest = edges->rest[i];
-  change += first - from;
-  change[0] += step * area;
-  change[1] += step * (rest - area);
-  change[2] += step * (1 - rest);
-}
-
-/* The number of boundaries from `done` on that share pixels only with each other; 0 if the number
- * is not known, or if the boundaries are too wide. *end: the end of their columns. */
-static inline size_t find_group(const cs_direct_edges *s, size_t done, int32_t *end) {
-  const cs_edges *edges = s->edges;
-  const uint32_t *boundaries = s->boundaries;
-  size_t n = done;
-  int32_t from = edges->first[boundaries[done]];
-  *end = from;
-  do {
-    size_t i = boundaries[n++];
-    if (edges->first[i] < from || (s->cells[i].length | s->cells[i + 1].length) != 0)
-      return 0;
-    *end = edges->end[i] > *end ? edges->end[i] : *end;
-  } while (n < s->count && edges->first[boundaries[n]] < *end);
-  if ((n == s->count && *end > s->next) || *end - from > CS_DIRECT_TOGETHER || *end > s->width)
-    return 0;
-  return n - done;
-}
-
-/* Draws a group of boundaries. It is not inlined, because the loop along the row needs the
- * registers. */
-static __attribute__((noinline)) size_t draw_group(cs_row_writer *writer, const cs_direct_edges *s,
-                                                   size_t done) {
-  int32_t end;
-  size_t count = find_group(s, done, &end);
-  if (count == 0)
-    return 0;
-  const uint32_t *boundaries = s->boundaries + done;
-  int32_t from = s->edges->first[boundaries[0]];
-  size_t spans = (size_t)(end - from) + 1 + CS_DIRECT_EACH * (s->count - done - count);
-  if ((size_t)(writer->row->spans + writer->row->capacity - writer->next) < spans)
-    return 0;
-  cs_sum4 change[CS_DIRECT_TOGETHER + 3];
-  for (int32_t k = 0; k < end - from + 3; k++)
-    change[k] = (cs_sum4){0};
-  for (size_t k = 0; k < count; k++)
-    add_edge(change, from, s, boundaries[k]);
-  cs_v4 base = s->cells[boundaries[0]].colour;
-  cs_sum4 sum = CS_SUM4(base);
-  cs_row_writer_to(writer, from, base);
-  for (int32_t k = 0; k < end - from; k++) {
-    sum += change[k];
-    cs_row_writer_to(writer, from + k + 1, cs_v4_settled(__builtin_convertvector(sum, cs_v4)));
-  }
-  return count;
-}
-
 /* ---------------------------------------------------------------- along the row */
 
-/* As draw_group, which gets a copy of the writer, so that the writer itself can stay in
- * registers. */
-static inline size_t try_group(cs_row_writer *writer, const cs_direct_edges *s, size_t done) {
-  cs_row_writer lent = *writer;
-  size_t drawn = draw_group(&lent, s, done);
-  *writer = lent;
-  return drawn;
-}
-
-/* Draws the first boundary, and the boundaries that share its pixels. Returns their number, or
- * 0. */
+/* Draws the first boundary if no other shares its pixels. Returns how many it has drawn. */
 static inline size_t draw_next(cs_row_writer *writer, const cs_direct_edges *s,
                                const cs_edges *edges, size_t done) {
   size_t i = s->boundaries[done];
   int32_t first = edges->first[i], end = edges->end[i];
   int32_t next = done + 1 < s->count ? edges->first[s->boundaries[done + 1]] : s->next;
   const cs_cell *left = &s->cells[i];
-  if (first < writer->from || (left->length | left[1].length) != 0)
+  if (first < writer->from || (left->length | left[1].length) != 0 || end > next ||
+      (end - first > 2 && !(edges->fall[i] > 0)))
     return 0;
-  if (end > next || (end - first > 2 && !(edges->fall[i] > 0)))
-    return try_group(writer, s, done);
   if (end - first > 2)
     cs_direct_ramp(
         writer, first, end - 1, left->colour, left[1].colour - left->colour,

@@ -5,7 +5,7 @@
 #include <string.h>
 
 /* Bytes of one boundary over all arrays. */
-#define ITEM_SIZE (4 * sizeof(double) + 4 * sizeof(float) + 2 * sizeof(int32_t) + sizeof(bool))
+#define ITEM_SIZE (2 * sizeof(double) + 4 * sizeof(float) + 2 * sizeof(int32_t) + sizeof(bool))
 
 /* Bytes of the arrays of `capacity` boundaries and of the gap before them, which aligns them. */
 static size_t storage_size(size_t capacity) {
@@ -31,9 +31,7 @@ static celspan_status make_room(celspan_context *context, cs_edges *edges, size_
   *edges = (cs_edges){.isa = cs_isa_best(),
                       .low = doubles,
                       .high = doubles + wanted,
-                      .area = doubles + 2 * wanted,
-                      .rest = doubles + 3 * wanted,
-                      .one = (float *)(doubles + 4 * wanted),
+                      .one = (float *)(doubles + 2 * wanted),
                       .storage = storage,
                       .capacity = wanted};
   edges->two = edges->one + wanted;
@@ -73,10 +71,8 @@ static void measure_pieces(cs_edges *edges, const cs_active *active, const cs_be
     add_piece(&area, &rest, p.above, p.below, reached - passed, split);
     passed = reached;
   }
-  edges->area[i] = area;
-  edges->rest[i] = edges->end[i] - edges->first[i] > 1 ? rest : 1;
-  edges->one[i] = (float)edges->area[i];
-  edges->two[i] = (float)edges->rest[i];
+  edges->one[i] = (float)area;
+  edges->two[i] = edges->end[i] - edges->first[i] > 1 ? (float)rest : 1;
 }
 
 /* As cs_edges_straight for a boundary with vertices in the row. */

@@ -5,8 +5,8 @@
  *            |               |
  *      +-----.-+-------+-------+-----
  *      |     `.|#######|#######|##         ###: right of the edge
- *      |       |`-.####|#######|##         area: the share of the first column
- *      |       |   `-.#|#######|##         rest: the share of the last column
+ *      |       |`-.####|#######|##         one: the share of the first column
+ *      |       |   `-.#|#######|##         two: the share of the last column
  *      |       |      `|-.#####|##         fall: by how much the share grows from each column
  *      |       |       |  `-.##|##               between them to the next
  *      +-------+-------+-----`-+----
@@ -27,8 +27,7 @@ typedef struct cs_edges {
   cs_isa isa;         /* the instructions that straight boundaries are measured with */
   double *low, *high; /* the least and the greatest x in the row */
   /* the shares of the boundary's first and last column that lie right of the boundary */
-  double *area, *rest;
-  float *one, *two; /* area and rest again, as weights of colours */
+  float *one, *two;
   /* for more than two columns: the area in the second column, and how much the area grows from
    * each column to the next; 0 where there are no areas */
   float *second, *fall;

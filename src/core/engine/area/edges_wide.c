@@ -1,11 +1,10 @@
 /* Plain loops that the compiler turns into vector code: each line is one operation on every
- * boundary. See edges.h for what area, rest, second and fall are. */
+ * boundary. See edges.h for what one, two, second and fall are. */
 #include "engine/area/edges.h"
 
 void CS_WIDE(cs_edges_straight)(cs_edges *edges, const double *restrict top,
                                 const double *restrict foot, size_t count, int32_t width) {
   double *restrict low = edges->low, *restrict high = edges->high;
-  double *restrict area = edges->area, *restrict rest = edges->rest;
   float *restrict one = edges->one, *restrict two = edges->two;
   float *restrict second = edges->second, *restrict fall = edges->fall;
   int32_t *restrict first = edges->first, *restrict end = edges->end;
@@ -30,8 +29,6 @@ void CS_WIDE(cs_edges_straight)(cs_edges *edges, const double *restrict top,
     high[i] = b;
     double in_first = cs_cover_round(b > split ? first_of : within);
     double in_last = cs_cover_round(b > split ? last_of : 1);
-    area[i] = in_first;
-    rest[i] = in_last;
     one[i] = (float)in_first;
     two[i] = (float)in_last;
     second[i] = (float)cs_cover_round((2 * (split - a) + 1) * by_twice);

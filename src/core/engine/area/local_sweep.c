@@ -257,23 +257,6 @@ static celspan_status draw_intersections(cs_local_sweep *sweep) {
   return CELSPAN_OK;
 }
 
-/* The same for a slab with a single intersection, which is the usual case. */
-static celspan_status draw_intersection(cs_local_sweep *sweep,
-                                        const cs_intersection *intersection) {
-  /* edge j is still in place j, because no edges have changed places */
-  size_t j = intersection->left;
-  cs_member *a = sweep->members[j], *b = sweep->members[j + 1];
-  const cs_cell *right = b->right;
-  CS_TRY(flush(sweep, j, intersection->left_x, intersection->y));
-  CS_TRY(flush(sweep, j + 1, intersection->right_x, intersection->y));
-  if (sweep->crossed > j)
-    cross_to(sweep, j);
-  sweep->members[j] = b;
-  sweep->members[j + 1] = a;
-  a->right = right; /* cells belong to places, not to members */
-  return refresh(sweep, j, j);
-}
-
 /* Follows the members from y0 down to y1, the next height at which a member begins or ends. */
 static celspan_status run_slab(cs_local_sweep *sweep, double y0, double y1) {
   cs_intersections *intersections = &sweep->intersections;
@@ -287,9 +270,7 @@ static celspan_status run_slab(cs_local_sweep *sweep, double y0, double y1) {
     intersections->foot[j] = member->foot;
   }
   CS_TRY(cs_intersections_find(intersections, sweep->composer->context, sweep->count, y0, y1));
-  if (intersections->count == 1)
-    CS_TRY(draw_intersection(sweep, &intersections->intersections[0]));
-  else if (intersections->count > 1)
+  if (intersections->count > 0)
     CS_TRY(draw_intersections(sweep));
   for (size_t j = 0; j < sweep->count; j++)
     sweep->members[j]->foot = intersections->foot[j];

@@ -18,10 +18,7 @@
 #define TILE 256 /* pixels summed at a time */
 /* if at most this many pixels of a window lie between cells that vary, they become single spans */
 #define FEW 2
-/* columns of the next window for which a cell is folded together with the columns of its own
- * window */
-#define BESIDE 2
-/* and those that the painter folds together with them, if it can */
+/* columns of the next window that the painter folds together with those of a cell, if it can */
 #define AHEAD 4
 
 /* Clears the sums of the open window. */
@@ -35,20 +32,13 @@ static void clear_change(cs_window *window) {
 }
 
 void cs_window_init(cs_window *window, cs_painter *painter, cs_arena *arena, int32_t width) {
-  const cs_stack *stack = painter->stack;
-  *window = (cs_window){.painter = painter,
-                        .composer = painter->composer,
-                        .arena = arena,
-                        .width = width,
-                        .has_stretches = stack->has_sources && stack->defocused_count > 0};
+  *window = (cs_window){
+      .painter = painter, .composer = painter->composer, .arena = arena, .width = width};
 }
 
 void cs_window_finish(cs_window *window, cs_memory *memory) {
   cs_mem_free(memory, window->borders, window->border_capacity * sizeof *window->borders);
   cs_arena_finish(&window->tiles, memory);
-  for (int i = 0; i < 2; i++)
-    cs_mem_free(memory, window->stretches[i].rgba,
-                window->stretches[i].capacity * sizeof *window->stretches[i].rgba);
 }
 
 void cs_window_begin_row(cs_window *window, int32_t y, const cs_cell *leftmost, cs_row *out) {
@@ -61,8 +51,6 @@ void cs_window_begin_row(cs_window *window, int32_t y, const cs_cell *leftmost, 
   window->border_count = 0;
   window->is_open = window->varies = window->is_whole_row = false;
   window->ahead = NULL;
-  for (int i = 0; i < 2; i++)
-    window->stretches[i].end = window->stretches[i].from = 0;
 }
 
 void cs_window_open_row(cs_window *window) {
@@ -90,25 +78,6 @@ static inline double cover(const cs_direct_piece *f, int32_t p) {
   return cs_cover_of(f->xa, f->xb, f->height, p);
 }
 
-/* ---------------------------------------------------------------- stretches
- *
- *      window |    cell    | window        a cell that is blended is folded once for all pixels of
- *     |   /   |            |  /    |       it, with those of the windows on its sides, because
- *     |  /    |            | /     |       folding few pixels costs as much as folding many
- *         |<---- stretch ---->|
- */
-
-/* The colours of a cell in some columns; NULL if they have not been made. */
-static const float (*find_stretch(const cs_window *window, const cs_cell *cell, cs_run run))[4] {
-  for (int i = 1; i >= 0; i--) {
-    const cs_window_stretch *s = &window->stretches[i];
-    if (s->from <= run.x0 && run.x1 <= s->end && s->from < s->end &&
-        cs_composer_same(window->composer, &s->cell, cell))
-      return (const float(*)[4])s->rgba + (run.x0 - s->from);
-  }
-  return NULL;
-}
-
 /* Says which columns of the cell right of the open window will be asked for. */
 static void say_ahead(cs_window *window, int32_t next) {
   int32_t end = window->width - next < AHEAD ? window->width : next + AHEAD;
@@ -117,51 +86,6 @@ static void say_ahead(cs_window *window, int32_t next) {
   window->ahead = window->cell;
   window->ahead_end = end;
   cs_painter_ahead(window->painter, window->cell, (cs_run){window->from, end, window->centre});
-}
-
-/* Makes the stretch of the cell right of the open window, up to the next window's first columns,
- * which replaces the stretch of the previous cell. next: the first column of the next window. */
-static celspan_status make_stretch(cs_window *window, int32_t next) {
-  cs_window_stretch made;
-  int32_t end = window->width - next < BESIDE ? window->width : next + BESIDE;
-  cs_run between = {window->end, next, window->centre};
-  say_ahead(window, next);
-  if (!window->has_stretches || next <= window->end ||
-      !cs_painter_blends(window->painter, window->cell) ||
-      find_stretch(window, window->cell, between))
-    return CELSPAN_OK;
-  CS_TRY(CS_RESERVE(window->composer->context, window->stretches[0].rgba,
-                    window->stretches[0].capacity, (size_t)(end - window->from)));
-  made = window->stretches[0];
-  made.cell = *window->cell;
-  made.from = window->from;
-  made.end = end;
-  window->stretches[0] = window->stretches[1];
-  window->stretches[1] = made;
-  return cs_painter_colours(window->painter, window->cell, (cs_run){made.from, end, window->centre},
-                            made.rgba);
-}
-
-static celspan_status find_colours(cs_window *window, const cs_cell *cell, cs_run run,
-                                   float (*rgba)[4]) {
-  const float(*made)[4] = window->has_stretches ? find_stretch(window, cell, run) : NULL;
-  if (!made)
-    return cs_painter_colours(window->painter, cell, run, rgba);
-  memcpy(rgba, made, (size_t)(run.x1 - run.x0) * sizeof *rgba);
-  return CELSPAN_OK;
-}
-
-/* Writes the columns up to the next window. */
-static celspan_status draw_cell(cs_window *window, int32_t next) {
-  cs_run run = {window->from, next, window->centre};
-  const float(*made)[4] =
-      window->has_stretches && run.x0 < run.x1 ? find_stretch(window, window->cell, run) : NULL;
-  float *colours;
-  if (!made)
-    return cs_painter_run(window->painter, window->cell, run, window->out);
-  CS_TRY(cs_row_array(window->composer->context, window->out, run.x0, run.x1, &colours));
-  memcpy(colours, made, (size_t)(run.x1 - run.x0) * sizeof *made);
-  return CELSPAN_OK;
 }
 
 /* ---------------------------------------------------------------- closing */
@@ -428,8 +352,8 @@ static celspan_status add_cell(const mixture *m, const weighted_cell *cell, int3
     first++;
   while (end > first && weight_in(cell, end - 1) == 0)
     end--;
-  CS_TRY(
-      find_colours(m->window, cell->cell, (cs_run){p0 + first, p0 + end, m->window->centre}, rgba));
+  CS_TRY(cs_painter_colours(m->window->painter, cell->cell,
+                            (cs_run){p0 + first, p0 + end, m->window->centre}, rgba));
   for (int32_t k = first; k < end; k++)
     cs_v4_store(sum + 4 * k,
                 cs_v4_load(sum + 4 * k) + cs_v4_load(rgba[k - first]) * (float)weight_in(cell, k));
@@ -488,8 +412,8 @@ static celspan_status close_between(cs_window *window) {
   float left[CS_WINDOW_NARROW][4], right[CS_WINDOW_NARROW][4], room[4 * FEW], *sum;
   double areas[CS_WINDOW_NARROW];
   cs_run run = {p0, p1, window->centre};
-  CS_TRY(find_colours(window, border->left, run, left));
-  CS_TRY(find_colours(window, border->right, run, right));
+  CS_TRY(cs_painter_colours(window->painter, border->left, run, left));
+  CS_TRY(cs_painter_colours(window->painter, border->right, run, right));
   CS_TRY(open_pixels(window, p0, p1, room, &sum));
   memset(areas, 0, (size_t)(p1 - p0) * sizeof *areas);
   for (size_t i = 0; i < window->border_count; i++)
@@ -534,7 +458,7 @@ static celspan_status draw_window(cs_window *window) {
 
 /* next: the first column of the next window. */
 static celspan_status close_window(cs_window *window, int32_t next) {
-  CS_TRY(make_stretch(window, next));
+  say_ahead(window, next);
   if (window->end > window->from)
     CS_TRY(draw_window(window));
   clear_change(window);
@@ -544,14 +468,23 @@ static celspan_status close_window(cs_window *window, int32_t next) {
   return CELSPAN_OK;
 }
 
+/* Closes the open window, if any, and writes the cell up to the next one. */
+static celspan_status write_to(cs_window *window, int32_t next) {
+  if (window->is_open)
+    CS_TRY(close_window(window, next));
+  else
+    say_ahead(window, next);
+  return cs_painter_run(window->painter, window->cell, (cs_run){window->from, next, window->centre},
+                        window->out);
+}
+
 /* ---------------------------------------------------------------- items */
 
 celspan_status cs_window_begin_item(cs_window *window, double x) {
   int32_t first = cs_edges_floor(x, window->width);
   if (window->is_whole_row || (window->is_open && first < window->end))
     return CELSPAN_OK;
-  CS_TRY(window->is_open ? close_window(window, first) : make_stretch(window, first));
-  CS_TRY(draw_cell(window, first));
+  CS_TRY(write_to(window, first));
   if (first > window->from)
     window->from = first;
   window->end = window->from;
@@ -616,8 +549,8 @@ celspan_status cs_window_edges(cs_window *window, cs_direct_edges *rest) {
     if (window->is_open && rest->edges->first[i] >= window->end)
       CS_TRY(close_window(window, rest->edges->first[i]));
     if (!window->is_open) {
-      CS_TRY(cs_row_reserve(window->composer->context, window->out,
-                            CS_DIRECT_EACH * rest->count + CS_DIRECT_TOGETHER + 1));
+      CS_TRY(
+          cs_row_reserve(window->composer->context, window->out, CS_DIRECT_EACH * rest->count + 1));
       size_t done = draw_edges(window, rest);
       rest->boundaries += done;
       rest->count -= done;
@@ -629,8 +562,4 @@ celspan_status cs_window_edges(cs_window *window, cs_direct_edges *rest) {
   return CELSPAN_OK;
 }
 
-celspan_status cs_window_end_row(cs_window *window) {
-  CS_TRY(window->is_open ? close_window(window, window->width)
-                         : make_stretch(window, window->width));
-  return draw_cell(window, window->width);
-}
+celspan_status cs_window_end_row(cs_window *window) { return write_to(window, window->width); }

@@ -25,16 +25,7 @@
 #include "engine/compose/border.h"
 #include "engine/paint/painter.h"
 
-#define CS_WINDOW_NARROW CS_DIRECT_TOGETHER /* nearly all windows have at most this many columns */
-
-/* The colours of a cell between two columns, made before its windows and the columns between
- * them. */
-typedef struct cs_window_stretch {
-  cs_cell cell;
-  int32_t from, end; /* empty: none */
-  float (*rgba)[4];
-  size_t capacity;
-} cs_window_stretch;
+#define CS_WINDOW_NARROW 32 /* nearly all windows have at most this many columns */
 
 /* A border of the open window, and its part inside the window. */
 typedef struct cs_window_border {
@@ -65,8 +56,6 @@ typedef struct cs_window {
   cs_arena tiles;       /* memory for the weights of one tile; owned by the window */
   const cs_cell *ahead; /* the cell whose pixels up to ahead_end are folded */
   int32_t ahead_end;
-  bool has_stretches;             /* there may be stretches */
-  cs_window_stretch stretches[2]; /* the stretches of the cells on both sides of the open window */
 } cs_window;
 
 void cs_window_init(cs_window *window, cs_painter *painter, cs_arena *arena, int32_t width);

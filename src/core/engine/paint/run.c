@@ -343,10 +343,3 @@ celspan_status cs_painter_run(cs_painter *painter, const cs_cell *cell, cs_run r
   cs_program program = cs_composer_program(painter->composer, cell);
   return cs_painter_run_program(painter, &program, run, row);
 }
-
-bool cs_painter_blends(const cs_painter *painter, const cs_cell *cell) {
-  if (cell->length == 0)
-    return false;
-  cs_program program = cs_composer_program(painter->composer, cell);
-  return is_blended(painter->stack, &program);
-}

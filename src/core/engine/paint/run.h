@@ -21,9 +21,6 @@ CELSPAN_CHECKED celspan_status cs_painter_run(cs_painter *painter, const cs_cell
 CELSPAN_CHECKED celspan_status cs_painter_run_program(cs_painter *painter,
                                                       const cs_program *program, cs_run run,
                                                       cs_row *row);
-/* Whether modes or mattes act on defocused layers of a cell, which then is painted pixel by pixel.
- */
-bool cs_painter_blends(const cs_painter *painter, const cs_cell *cell);
 
 /* ---- gradient_lines.c */
 
