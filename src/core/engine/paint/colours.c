@@ -210,10 +210,11 @@ static inline bool is_ahead(const cs_painter *painter) {
   return painter->ahead && painter->ahead->length > 0;
 }
 
-/* The colours of a batch that has not been folded ahead. */
-static celspan_status batch_colours(cs_painter *painter, const cs_program *program,
-                                    const cs_batch *batch, float (*rgba)[4]) {
+celspan_status cs_painter_batch_colours(cs_painter *painter, const cs_program *program,
+                                        const cs_batch *batch, float (*rgba)[4]) {
   const cs_gradient_table *table;
+  if (is_ahead(painter) && cs_over_channels_ready(painter, program, batch, rgba))
+    return CELSPAN_OK;
   CS_TRY(cs_gradient_table_find(painter->gradients, program, &table));
   if (!table && cs_over_channels_colours(painter, program, batch, rgba))
     return CELSPAN_OK;
@@ -229,13 +230,6 @@ static celspan_status batch_colours(cs_painter *painter, const cs_program *progr
   CS_TRY(fold_bare(painter, program, batch, &over));
   cs_over_bare_end(painter->isa, painter->stack, &over, rgba);
   return CELSPAN_OK;
-}
-
-celspan_status cs_painter_batch_colours(cs_painter *painter, const cs_program *program,
-                                        const cs_batch *batch, float (*rgba)[4]) {
-  if (is_ahead(painter) && cs_over_channels_ready(painter, program, batch, rgba))
-    return CELSPAN_OK;
-  return batch_colours(painter, program, batch, rgba);
 }
 
 celspan_status cs_painter_batch_codes(cs_painter *painter, const cs_program *program,
@@ -306,17 +300,8 @@ static celspan_status find_shown(cs_painter *painter, cs_shown_kept *kept, cs_ru
 
 celspan_status cs_painter_program_colours(cs_painter *painter, const cs_program *program,
                                           cs_run run, float (*rgba)[4]) {
-  const cs_batch batch = {NULL, run.x0, run.x1 - run.x0, run.y};
-  if (batch.count <= 0)
-    return CELSPAN_OK;
-  if (is_ahead(painter) && batch.count <= CS_FEW_PIXELS &&
-      cs_over_channels_ready(painter, program, &batch, rgba))
-    return CELSPAN_OK;
-  if (batch.count <= CS_FEW_PIXELS && cs_few_fits(painter->stack, program))
-    return cs_few_colours(painter, program, run, rgba);
   if (!cs_shown_varies(painter->stack, program))
-    return batch.count <= CS_FEW_PIXELS ? batch_colours(painter, program, &batch, rgba)
-                                        : cs_painter_shown_colours(painter, program, run, rgba);
+    return cs_painter_shown_colours(painter, program, run, rgba);
   cs_shown_kept *kept;
   CS_TRY(cs_shown_keep(painter, program, &kept));
   for (int32_t x = run.x0, end; x < run.x1; rgba += end - x, x = end) {

@@ -44,15 +44,3 @@ bool cs_painter_is_bare(const cs_painter *painter, cs_item item);
 /* Whether all items are such pictures, and paints of light, so that the program is a fold of
  * over_bare.h. */
 bool cs_painter_are_bare(const cs_painter *painter, const cs_program *program);
-
-/* ---- few.c */
-
-#define CS_FEW_PIXELS 4
-
-/* Whether all layers of a program are flat, defocused or formulas, at least one of them defocused
- * or two of them formulas, and no defocused layer hides another one that has not been made yet. */
-bool cs_few_fits(const cs_stack *stack, const cs_program *program);
-/* Premultiplied RGBA of such a program at the middles of a run's pixels, at most CS_FEW_PIXELS.
- * Errors: NO_MEMORY, and those of making defocused cels. */
-CELSPAN_CHECKED celspan_status cs_few_colours(cs_painter *painter, const cs_program *program,
-                                              cs_run run, float (*rgba)[4]);

@@ -146,8 +146,8 @@ static void add_frame(cs_held *held, const cs_frame *frame, const celspan_frame_
   add_everywhere(held, cs_hash_end(hash));
 }
 
-/* What a stack was found to be: crowds and blurs are painted in other ways where something
- * elsewhere does not suit them, with other last bits. Where light is folded by a table, it is
+/* What a stack was found to be: crowds are painted in another way where something elsewhere does
+ * not suit them, with other last bits. Where light is folded by a table, it is
  * joined by the numbers of the layers. */
 static void add_plan(cs_held *held, const cs_plan *plan) {
   const cs_stack *stack = &plan->stack;
@@ -155,7 +155,6 @@ static void add_plan(cs_held *held, const cs_plan *plan) {
   const bool is_numbered = is_flat && cs_over_table_suits(stack);
   cs_hash traits = cs_hash_begin((uint64_t)plan->cull.tile_height);
   cs_hash_word(&traits, is_flat && stack->tree_count == 0); /* crowds (engine/area/crowd.h) */
-  cs_hash_word(&traits, stack->has_sources);                /* blurs (engine/paint/few.c) */
   add_everywhere(held, cs_hash_end(traits));
   for (size_t i = 0; i < plan->shown_count; i++) {
     const cs_plan_shown *shown = &plan->shown[i];
