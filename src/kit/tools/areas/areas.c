@@ -3,47 +3,22 @@
 #include <string.h>
 
 #include "tools/areas/nearest.h"
-
-#define UNKNOWN UINT32_MAX
+#include "tools/trace/regions.h"
 
 /* ---------------------------------------------------------------- labels */
 
-/* Gives a pixel the label, and a place in the queue, if it has none. */
-static void take(cs_ink_areas *a, uint32_t *queue, size_t *end, size_t place, uint32_t label) {
-  if (a->walls[place] || a->labels[place] != UNKNOWN)
-    return;
-  a->labels[place] = label;
-  queue[(*end)++] = (uint32_t)place;
-}
-
-/* Labels what hangs together with a pixel by sides. */
-static void flood(cs_ink_areas *a, uint32_t *queue, size_t from, uint32_t label) {
-  const size_t width = (size_t)a->width, size = cs_ink_areas_size(a);
-  size_t end = 0;
-  take(a, queue, &end, from, label);
-  for (size_t i = 0; i < end; i++) {
-    const size_t place = queue[i], x = place % width;
-    if (x > 0)
-      take(a, queue, &end, place - 1, label);
-    if (x + 1 < width)
-      take(a, queue, &end, place + 1, label);
-    if (place >= width)
-      take(a, queue, &end, place - width, label);
-    if (place + width < size)
-      take(a, queue, &end, place + width, label);
-  }
-}
-
-static celspan_status label_all(cs_ink_areas *a, uint32_t *queue) {
-  const cs_area_box none = {a->width, a->height, 0, 0};
-  memset(a->labels, 0xff, cs_ink_areas_size(a) * sizeof *a->labels);
-  for (size_t i = 0; i < cs_ink_areas_size(a); i++) {
-    if (a->walls[i] || a->labels[i] != UNKNOWN)
-      continue;
-    flood(a, queue, i, (uint32_t)a->count);
-    CS_TRY(CS_APPEND(a->context, a->boxes, a->count, a->capacity, none));
-  }
-  return CELSPAN_OK;
+static celspan_status label_all(cs_ink_areas *a) {
+  const cs_region_source source =
+      cs_region_source_mask(a->walls, a->width, a->height, CS_CORNERS_PART);
+  cs_regions regions;
+  CS_TRY(cs_regions_make(a->context, &source, &regions));
+  for (int32_t y = 0; y < a->height; y++)
+    for (size_t i = regions.rows[y]; i < regions.rows[y + 1]; i++)
+      for (int32_t x = regions.runs[i].x0; x < cs_regions_end(&regions, y, i); x++)
+        a->labels[(size_t)y * (size_t)a->width + (size_t)x] = regions.runs[i].region;
+  a->count = regions.count;
+  cs_regions_finish(&regions, a->context);
+  return CS_MAKE(a->context, a->boxes, a->count);
 }
 
 /* Gives walls the labels of the areas that are nearest to them. nearest: room for all places. */
@@ -62,6 +37,8 @@ static celspan_status share_walls(cs_ink_areas *a, uint32_t *nearest) {
 }
 
 static void measure_boxes(cs_ink_areas *a) {
+  for (size_t i = 0; i < a->count; i++)
+    a->boxes[i] = (cs_area_box){a->width, a->height, 0, 0};
   for (int32_t y = 0; y < a->height; y++)
     for (int32_t x = 0; x < a->width; x++) {
       cs_area_box *box = &a->boxes[a->labels[(size_t)y * (size_t)a->width + (size_t)x]];
@@ -73,14 +50,13 @@ static void measure_boxes(cs_ink_areas *a) {
 }
 
 static celspan_status divide(cs_ink_areas *a) {
-  uint32_t *places;
-  CS_TRY(CS_MAKE(a->context, places, cs_ink_areas_size(a)));
-  celspan_status status = label_all(a, places);
-  if (status == CELSPAN_OK)
-    status = share_walls(a, places);
+  uint32_t *nearest;
+  CS_TRY(label_all(a));
+  CS_TRY(CS_MAKE(a->context, nearest, cs_ink_areas_size(a)));
+  celspan_status status = share_walls(a, nearest);
   if (status == CELSPAN_OK)
     measure_boxes(a);
-  cs_mem_free(a->context->memory, places, cs_ink_areas_size(a) * sizeof *places);
+  cs_mem_free(a->context->memory, nearest, cs_ink_areas_size(a) * sizeof *nearest);
   return status;
 }
 
@@ -119,6 +95,6 @@ void cs_ink_areas_destroy(cs_ink_areas *areas) {
   cs_mem_free(memory, areas->coverage, size);
   cs_mem_free(memory, areas->walls, size);
   cs_mem_free(memory, areas->labels, size * sizeof *areas->labels);
-  cs_mem_free(memory, areas->boxes, areas->capacity * sizeof *areas->boxes);
+  cs_mem_free(memory, areas->boxes, areas->count * sizeof *areas->boxes);
   cs_mem_free(memory, areas, sizeof *areas);
 }

@@ -29,7 +29,7 @@ typedef struct cs_ink_areas {
   unsigned char *coverage, *walls;
   uint32_t *labels;
   cs_area_box *boxes;
-  size_t count, capacity;
+  size_t count; /* some labels may have no pixels */
 } cs_ink_areas;
 
 static inline size_t cs_ink_areas_size(const cs_ink_areas *areas) {

@@ -5,7 +5,7 @@
 #include "inside/elementary.h"
 #include "inside/number.h"
 #include "inside/sort.h"
-#include "tools/scan/blots.h"
+#include "tools/trace/regions.h"
 
 /* How far a spot differs from the paper where there may be a hole: darker; brighter at least, where
  * the paper is hardly darker than white. */
@@ -24,7 +24,7 @@ enum { BLOTS = 64 }; /* half of them dark, half of them bright */
 /* The blots that may be holes, and what is wanted. */
 typedef struct search {
   cs_rough *page;
-  cs_blot blots[BLOTS];
+  cs_region blots[BLOTS];
   size_t count;
   const cs_hole *holes;
   size_t hole_count;
@@ -62,20 +62,21 @@ static void mark(const cs_rough *page, bool is_bright, uint8_t *plane) {
           is_bright ? mean_at(page, x, y, 2) > 1 + least : mean_at(page, x, y, 1) < 1 - DARKER;
 }
 
-static inline bool is_larger(const cs_blot *a, const cs_blot *b) {
+static inline bool is_larger(const cs_region *a, const cs_region *b) {
   return a->area != b->area ? a->area > b->area : a->y0 != b->y0 ? a->y0 < b->y0 : a->x0 < b->x0;
 }
-CS_SORT_DEFINE(sort_blots, cs_blot, is_larger)
+CS_SORT_DEFINE(sort_blots, cs_region, is_larger)
 
 /* Adds the largest of the compact blots. */
-static void choose(search *s, cs_blots *blots) {
+static void choose(search *s, cs_regions *blots) {
   size_t most = s->count + BLOTS / 2;
   sort_blots(blots->list, blots->count);
   for (size_t i = 0; i < blots->count && s->count < most; i++) {
-    const cs_blot *blot = &blots->list[i];
+    const cs_region *blot = &blots->list[i];
     int32_t wide = blot->x1 - blot->x0, high = blot->y1 - blot->y0;
     bool is_compact = 2 * blot->area > (uint32_t)wide * (uint32_t)high;
-    if (blot->area >= 8 && is_compact && wide < s->page->width / 4 && high < s->page->height / 4)
+    if (blot->label && blot->area >= 8 && is_compact && wide < s->page->width / 4 &&
+        high < s->page->height / 4)
       s->blots[s->count++] = *blot;
   }
 }
@@ -84,14 +85,16 @@ static celspan_status find_blots(search *s, bool is_bright) {
   const cs_rough *page = s->page;
   size_t count = (size_t)page->width * (size_t)page->height;
   uint8_t *plane;
-  cs_blots blots;
+  cs_regions blots;
   CS_TRY(CS_MAKE(page->context, plane, count));
   mark(page, is_bright, plane);
-  celspan_status status = cs_blots_find(page->context, plane, page->width, page->height, &blots);
+  const cs_region_source source =
+      cs_region_source_mask(plane, page->width, page->height, CS_CORNERS_JOIN);
+  celspan_status status = cs_regions_make(page->context, &source, &blots);
   cs_mem_free(page->context->memory, plane, count);
   CS_TRY(status);
   choose(s, &blots);
-  cs_blots_finish(&blots, page->context);
+  cs_regions_finish(&blots, page->context);
   return CELSPAN_OK;
 }
 
@@ -131,7 +134,7 @@ static void fit(const cs_hole *holes, const celspan_point *at, size_t count, lay
 }
 
 static celspan_point middle_of(const search *s, size_t blot) {
-  const cs_blot *b = &s->blots[blot];
+  const cs_region *b = &s->blots[blot];
   const double half = s->page->side / 2.0;
   return (celspan_point){(b->x0 + b->x1) * half, (b->y0 + b->y1) * half};
 }
@@ -142,7 +145,7 @@ static bool is_near(double a, double b, double room) {
 
 /* Whether a blot has the size that a hole has when it is laid so. */
 static bool is_of_size(const search *s, const laying *l, size_t blot, const cs_hole *hole) {
-  const cs_blot *b = &s->blots[blot];
+  const cs_region *b = &s->blots[blot];
   const double side = s->page->side, room = 4 * side, covered = b->area * side * side;
   celspan_point size = extent(l, hole);
   double area = (l->re * l->re + l->im * l->im) * hole->width * hole->height;
@@ -260,7 +263,7 @@ static cover cover_of(const cs_rough *page, const celspan_rectangle *box, double
  * what it should, and is told from the grain around it. */
 static bool measure(const search *s, const laying *l, size_t h, celspan_point *out) {
   const cs_hole *hole = &s->holes[h];
-  const cs_blot *blot = &s->blots[l->of_hole[h]];
+  const cs_region *blot = &s->blots[l->of_hole[h]];
   const celspan_rectangle box = around(s, l, hole, 0.8), rim = around(s, l, hole, 1.2);
   float inside = mean_at(s->page, (blot->x0 + blot->x1) / 2, (blot->y0 + blot->y1) / 2, 1);
   const cover c = cover_of(s->page, &box, inside > 1 ? 1 : -1);

@@ -5,7 +5,7 @@
 
 #include "inside/context.h"
 #include "inside/number.h"
-#include "tools/scan/blots.h"
+#include "tools/trace/regions.h"
 
 /* SHADES of brightness; FULL: of the paper. RIM: of an edge of the paper, in spots, that is not
  * drawn on. */
@@ -92,16 +92,20 @@ static void clear_holes(const making *m) {
 
 static celspan_status drop_dust(const making *m) {
   const cs_scan *scan = &m->page->scan;
-  cs_blots blots;
+  cs_regions blots;
   if (m->desc->dust == 0)
     return CELSPAN_OK;
-  CS_TRY(cs_blots_find(m->page->context, m->dark, scan->width, scan->height, &blots));
-  for (size_t i = 0; i < blots.run_count; i++) {
-    const cs_blot_run *run = &blots.runs[i];
-    if (blots.list[run->blot].area <= m->desc->dust)
-      memset(m->dark + (size_t)run->y * m->width + run->x0, 0, (size_t)(run->x1 - run->x0));
-  }
-  cs_blots_finish(&blots, m->page->context);
+  const cs_region_source source =
+      cs_region_source_mask(m->dark, scan->width, scan->height, CS_CORNERS_JOIN);
+  CS_TRY(cs_regions_make(m->page->context, &source, &blots));
+  for (int32_t y = 0; y < scan->height; y++)
+    for (size_t i = blots.rows[y]; i < blots.rows[y + 1]; i++) {
+      const cs_region_run *run = &blots.runs[i];
+      if (blots.list[run->region].area <= m->desc->dust)
+        memset(m->dark + (size_t)y * (size_t)scan->width + (size_t)run->x0, 0,
+               (size_t)(cs_regions_end(&blots, y, i) - run->x0));
+    }
+  cs_regions_finish(&blots, m->page->context);
   return CELSPAN_OK;
 }
 

@@ -6,25 +6,35 @@ static size_t run_count(const cs_regions *regions) { return regions->rows[region
 
 /* ---------------------------------------------------------------- runs */
 
+static unsigned char label_at(const cs_region_source *source, int32_t x, int32_t y) {
+  const unsigned char byte = source->first[(size_t)y * source->stride + (size_t)x];
+  return source->is_mask ? byte != 0 : byte;
+}
+
 /* The first x, from `x` on, at which another label begins; eight are compared at a time. */
-static int32_t end_of_run(const unsigned char *row, int32_t x, int32_t width) {
-  for (; x + 8 <= width; x += 8) {
-    uint64_t here, before;
-    memcpy(&here, row + x, sizeof here);
-    memcpy(&before, row + x - 1, sizeof before);
-    if (here != before)
-      break;
-  }
-  while (x < width && row[x] == row[x - 1])
+static int32_t end_of_run(const cs_region_source *source, int32_t x, int32_t y) {
+  const unsigned char *row = source->first + (size_t)y * source->stride;
+  const int32_t width = source->width;
+  for (;;) {
+    for (; x + 8 <= width; x += 8) {
+      uint64_t here, before;
+      memcpy(&here, row + x, sizeof here);
+      memcpy(&before, row + x - 1, sizeof before);
+      if (here != before)
+        break;
+    }
+    while (x < width && row[x] == row[x - 1])
+      x++;
+    if (x == width || !source->is_mask || !row[x] != !row[x - 1])
+      return x;
     x++;
-  return x;
+  }
 }
 
 /* Finds the runs of a row; with out NULL they are only counted. */
-static size_t find_runs(const cs_labels *labels, int32_t y, cs_region_run *out) {
-  const unsigned char *row = cs_labels_at(labels, 0, y);
+static size_t find_runs(const cs_region_source *source, int32_t y, cs_region_run *out) {
   size_t count = 0;
-  for (int32_t x = 0; x < labels->width; x = end_of_run(row, x + 1, labels->width)) {
+  for (int32_t x = 0; x < source->width; x = end_of_run(source, x + 1, y)) {
     if (out)
       out[count].x0 = x;
     count++;
@@ -32,14 +42,14 @@ static size_t find_runs(const cs_labels *labels, int32_t y, cs_region_run *out) 
   return count;
 }
 
-static celspan_status make_runs(celspan_context *context, const cs_labels *labels,
+static celspan_status make_runs(celspan_context *context, const cs_region_source *source,
                                 cs_regions *out) {
-  CS_TRY(CS_MAKE(context, out->rows, (size_t)labels->height + 1));
-  for (int32_t y = 0; y < labels->height; y++)
-    out->rows[y + 1] = out->rows[y] + find_runs(labels, y, NULL);
+  CS_TRY(CS_MAKE(context, out->rows, (size_t)source->height + 1));
+  for (int32_t y = 0; y < source->height; y++)
+    out->rows[y + 1] = out->rows[y] + find_runs(source, y, NULL);
   CS_TRY(CS_MAKE(context, out->runs, run_count(out)));
-  for (int32_t y = 0; y < labels->height; y++)
-    find_runs(labels, y, out->runs + out->rows[y]);
+  for (int32_t y = 0; y < source->height; y++)
+    find_runs(source, y, out->runs + out->rows[y]);
   return CELSPAN_OK;
 }
 
@@ -65,9 +75,8 @@ static void unite(cs_region_run *runs, uint32_t a, uint32_t b) {
 }
 
 typedef struct maker {
-  const cs_material *material;
+  const cs_region_source *source;
   cs_regions *regions;
-  cs_corners corners;
 } maker;
 
 /* Whether a run of row y - 1 and a run of row y with the same label are connected. */
@@ -77,14 +86,15 @@ static bool are_joined(const maker *m, int32_t y, size_t upper, size_t lower) {
   int32_t upper_x0 = m->regions->runs[upper].x0, lower_x0 = m->regions->runs[lower].x0;
   if (upper_x0 < lower_end && lower_x0 < upper_end)
     return true;
-  if (m->corners == CS_CORNERS_JOIN)
-    return true;
-  return upper_end == lower_x0 ? cs_material_join(m->material, lower_x0, y) == CS_JOIN_NW_SE
-                               : cs_material_join(m->material, upper_x0, y) == CS_JOIN_NE_SW;
+  if (m->source->corners != CS_CORNERS_AS_BORDERS)
+    return m->source->corners == CS_CORNERS_JOIN;
+  const cs_material *material = m->source->material;
+  return upper_end == lower_x0 ? cs_material_join(material, lower_x0, y) == CS_JOIN_NW_SE
+                               : cs_material_join(material, upper_x0, y) == CS_JOIN_NE_SW;
 }
 
 static unsigned char label_of(const maker *m, int32_t y, size_t run) {
-  return *cs_labels_at(m->material->labels, m->regions->runs[run].x0, y);
+  return label_at(m->source, m->regions->runs[run].x0, y);
 }
 
 /* Both rows are visited from left to right; runs that touch only at corners count as neighbours,
@@ -121,39 +131,57 @@ static size_t count_regions(const cs_regions *regions) {
   return count;
 }
 
+static void add_run(cs_region *region, int32_t x0, int32_t x1, int32_t y) {
+  region->area += (uint32_t)(x1 - x0);
+  region->x0 = x0 < region->x0 ? x0 : region->x0;
+  region->x1 = x1 > region->x1 ? x1 : region->x1;
+  region->y1 = y + 1;
+}
+
 /* Runs come in the order of pixels, and a run refers only to runs before it. */
-static void number_regions(const cs_labels *labels, cs_regions *regions) {
+static void number_regions(const cs_region_source *source, cs_regions *regions) {
   for (int32_t y = 0; y < regions->height; y++)
     for (size_t i = regions->rows[y]; i < regions->rows[y + 1]; i++) {
       cs_region_run *run = &regions->runs[i];
       if (run->region == i) {
         run->region = (uint32_t)regions->count;
         regions->list[regions->count++] =
-            (cs_region){run->x0, y, 0, *cs_labels_at(labels, run->x0, y)};
+            (cs_region){run->x0, run->x0, y, run->x0, y, 0, label_at(source, run->x0, y)};
       } else {
         run->region = regions->runs[run->region].region;
       }
-      regions->list[run->region].area += (uint32_t)(cs_regions_end(regions, y, i) - run->x0);
+      add_run(&regions->list[run->region], run->x0, cs_regions_end(regions, y, i), y);
     }
 }
 
-static celspan_status make(celspan_context *context, const cs_material *material,
-                           cs_corners corners, cs_regions *out) {
-  CS_TRY(make_runs(context, material->labels, out));
-  const maker m = {material, out, corners};
+static celspan_status make(celspan_context *context, const cs_region_source *source,
+                           cs_regions *out) {
+  CS_TRY(make_runs(context, source, out));
+  const maker m = {source, out};
   for (size_t i = 0; i < run_count(out); i++)
     out->runs[i].region = (uint32_t)i;
   for (int32_t y = 1; y < out->height; y++)
     join_rows(&m, y);
   CS_TRY(CS_MAKE(context, out->list, count_regions(out)));
-  number_regions(material->labels, out);
+  number_regions(source, out);
   return CELSPAN_OK;
 }
 
-celspan_status cs_regions_make(celspan_context *context, const cs_material *material,
-                               cs_corners corners, cs_regions *out) {
-  *out = (cs_regions){.width = material->labels->width, .height = material->labels->height};
-  celspan_status status = make(context, material, corners, out);
+cs_region_source cs_region_source_of(const cs_material *material, cs_corners corners) {
+  const cs_labels *labels = material->labels;
+  return (cs_region_source){cs_labels_at(labels, 0, 0),
+                            labels->stride,
+                            labels->width,
+                            labels->height,
+                            false,
+                            corners,
+                            material};
+}
+
+celspan_status cs_regions_make(celspan_context *context, const cs_region_source *source,
+                               cs_regions *out) {
+  *out = (cs_regions){.width = source->width, .height = source->height};
+  celspan_status status = make(context, source, out);
   if (status != CELSPAN_OK)
     cs_regions_finish(out, context);
   return status;
@@ -264,7 +292,8 @@ static bool drop_once(sweeper *s) {
 
 static celspan_status drop_round(celspan_context *context, sweeper *s, bool *has_changed) {
   cs_memory *memory = context->memory;
-  CS_TRY(cs_regions_make(context, s->material, CS_CORNERS_JOIN, &s->regions));
+  const cs_region_source source = cs_region_source_of(s->material, CS_CORNERS_JOIN);
+  CS_TRY(cs_regions_make(context, &source, &s->regions));
   size_t runs = s->regions.rows[s->regions.height], regions = s->regions.count;
   s->first = cs_mem_array(memory, regions, sizeof *s->first);
   s->next = cs_mem_array(memory, runs, sizeof *s->next);

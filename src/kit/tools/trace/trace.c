@@ -130,7 +130,7 @@ static celspan_status draw_region(const maker *m, cs_writing *path, uint32_t reg
 static celspan_status add_shape(const maker *m, uint32_t region, celspan_trace *out) {
   const cs_region *from = &m->regions->list[region];
   const cs_flat_colour *colour = &m->material->colours->list[from->label];
-  cs_shape shape = {.x = from->x, .y = from->y, .area = from->area};
+  cs_shape shape = {.x = from->x, .y = from->y0, .area = from->area};
   cs_writing path = {.bytes = NULL};
   memcpy(shape.colour, colour->code, sizeof shape.colour);
   celspan_status status = draw_region(m, &path, region);
@@ -256,9 +256,10 @@ static celspan_status outline_regions(celspan_context *context, const celspan_tr
 
 static celspan_status trace_regions(celspan_context *context, const celspan_trace_desc *desc,
                                     const cs_material *material, celspan_trace *out) {
+  const cs_region_source source = cs_region_source_of(material, CS_CORNERS_AS_BORDERS);
   cs_regions regions;
   CS_TRY(cs_speckles_drop(context, material, (uint32_t)desc->speckle));
-  CS_TRY(cs_regions_make(context, material, CS_CORNERS_AS_BORDERS, &regions));
+  CS_TRY(cs_regions_make(context, &source, &regions));
   celspan_status status = desc->lines
                               ? cs_lines_make(context, material, &regions, desc->smooth, out)
                               : outline_regions(context, desc, material, &regions, out);
