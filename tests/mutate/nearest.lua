@@ -257,6 +257,8 @@ return {
   ["lua/celspan/film/parameters.lua"] = { "spec/parameters", "spec/watch_values" },
   ["lua/celspan/base/pathdata.lua"] = { "spec/timing" },
   ["lua/celspan/ink/ink_area.lua"] = { "spec/areas" },
+  ["lua/celspan/ink/ink_chart.lua"] = { "spec/areas" },
+  ["lua/celspan/ink/ink_follow.lua"] = { "spec/areas" },
   ["lua/celspan/ink/ink_recolour.lua"] = { "spec/palettes" },
   ["lua/celspan/ink/ink.lua"] = { "spec/palettes", "spec/scan", "spec/areas" },
   ["lua/celspan/ink/ink_scan.lua"] = { "spec/scan" },

@@ -3,6 +3,7 @@
 --
 --   ink.scan("rough.####.png")          -- scans, registered by their pegs and cleaned
 --   ink.area { lines, at = { 320, 88 } } -- paint between lines, although they have gaps
+--   ink.follow(drawings, seeds)         -- the same areas in the drawings after
 --   ink.recolour(hero, day, night)      -- a drawing in the colours of another palette
 local native = require "celspan.native"
 local fields = require "celspan.fields"
@@ -10,8 +11,8 @@ local fields = require "celspan.fields"
 local ink = {}
 
 --- The private modules, each of which returns its functions by their names here.
-local parts = { area = "ink_area", areas = "ink_area", leak = "ink_area", recolour = "ink_recolour",
-  scan = "ink_scan" }
+local parts = { area = "ink_area", areas = "ink_area", follow = "ink_follow", leak = "ink_area",
+  recolour = "ink_recolour", scan = "ink_scan" }
 
 local refuse = getmetatable(fields.seal("ink", ink)).__index
 

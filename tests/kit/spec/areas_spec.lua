@@ -1,9 +1,12 @@
--- Areas between lines: made drawings whose areas are known, and refusals. With CELSPAN_VERBOSE the
--- shares are printed.
+-- Areas between lines, and areas that are followed: made drawings whose areas are known, and
+-- refusals. With CELSPAN_VERBOSE the shares are printed, and those of a second opinion.
 local celspan = require "celspan"
 local ink = require "celspan.ink"
+local autoclose = require "tests.support.autoclose"
+local figures = require "tests.support.figures"
 local inked = require "tests.support.inked"
-local raised = require("tests.support.raised").message
+local raises = require "tests.support.raised"
+local raised = raises.message
 
 local W, H = inked.width, inked.height
 local NOTHING = celspan.union {}
@@ -45,11 +48,22 @@ local function compare(count, truth, got)
   return lacks, beyond
 end
 
-local function fill(drawing)
+local GAP = 12
+
+local function fill(drawing, lines, gap)
   local seeds = {}
   for i, cell in ipairs(drawing.cells) do seeds[i] = { cell.x, cell.y, colour_of(i) } end
-  return ink.areas { inked.strokes(drawing, drawing.lines), gap = 12, colours = seeds,
-    fallback = NOTHING }
+  return ink.areas { lines, gap = gap, colours = seeds, fallback = NOTHING }
+end
+
+local function fill_ours(drawing)
+  return fill(drawing, inked.strokes(drawing, drawing.lines), GAP)
+end
+
+--- By the second opinion's closings alone. Lines end half of their width before their ink does.
+local function fill_theirs(drawing)
+  local closings = autoclose(drawing.lines, GAP + drawing.line)
+  return fill(drawing, inked.strokes(drawing, drawing.lines) | inked.strokes(drawing, closings), 0)
 end
 
 local function count_cell(sum, cell, lacks, beyond)
@@ -64,11 +78,11 @@ end
 
 --- Fills made drawings: how many areas there are and are right, how many have paint of others
 --- without an error, and how many passages there are and are cut.
-local function tally(first, last, has_doors)
+local function tally(first, last, has_doors, by)
   local sum = { areas = 0, right = 0, spilled = 0, refused = 0, doors = 0, cut = 0 }
   for seed = first, last do
     local drawing = inked.make(seed, has_doors)
-    local good, art = pcall(fill, drawing)
+    local good, art = pcall(by or fill_ours, drawing)
     if not good then sum.refused, art = sum.refused + 1, NOTHING end
     local lacks, beyond = compare(#drawing.cells, codes(drawing, truth_of(drawing)),
       codes(drawing, art))
@@ -77,7 +91,9 @@ local function tally(first, last, has_doors)
     end
   end
   if os.getenv "CELSPAN_VERBOSE" then
-    for name, value in pairs(sum) do print(has_doors and "with doors" or "plain", name, value) end
+    for name, value in pairs(sum) do
+      print(by and "second opinion" or "ours", has_doors and "with doors" or "plain", name, value)
+    end
   end
   return sum
 end
@@ -88,7 +104,11 @@ local function check(first, last)
   assert.equal(0, sum.spilled)
   local doors = tally(first, last, true) -- the end of a stub may take that of a wall
   assert.truthy(doors.spilled <= 0.003 * doors.areas, doors.spilled .. " areas are spilled into")
+  return sum, doors
 end
+
+-- Of 300 drawings; `--all` tries all of them.
+local SCENES = tonumber(os.getenv "CELSPAN_SCENES") or 80
 
 describe("areas between lines", function()
   it("are those of made drawings with gaps", function() check(1, 1) end)
@@ -96,7 +116,11 @@ describe("areas between lines", function()
     assert.equal(0, tally(84, 84, false).refused)
   end)
   it("do not take in one that is near a corner of theirs", function() check(41, 41) end)
-  it("are those of 80 made drawings #full", function() check(3, 82) end)
+  it("are those of many made drawings, and more than by a second opinion #full", function()
+    local plain, doors = check(3, 2 + SCENES)
+    assert.truthy(plain.right > tally(3, 2 + SCENES, false, fill_theirs).right)
+    assert.truthy(doors.right > tally(3, 2 + SCENES, true, fill_theirs).right)
+  end)
 end)
 
 --- A square of lines with an opening of 9 at its lower right.
@@ -176,5 +200,94 @@ describe("many areas", function()
       scale = 2 }
     assert.equal(10000, #art)
     assert.truthy(art[5050]:contains(10 * 49 + 5, 505))
+  end)
+end)
+
+--- Follows made characters: how many areas there are, are right, are listed, and are wrong but not
+--- listed.
+local function follow_all(first, last, count)
+  local sum = { areas = 0, right = 0, listed = 0, wrong = 0 }
+  for seed = first, last do
+    local figure = figures.make(seed, count)
+    local cels, unsure = ink.follow(figure.drawings, figure.seeds, { gap = 0, scale = 1 })
+    sum.listed = sum.listed + #unsure
+    for k, drawing in ipairs(figure.drawings) do
+      for name, cel in pairs(cels[k]) do
+        local is_right = figures.part_at(drawing, cel.at[1], cel.at[2]) == name
+        sum.areas = sum.areas + 1
+        sum.right = sum.right + (cel.object and is_right and 1 or 0)
+        sum.wrong = sum.wrong + (cel.object and not is_right and 1 or 0)
+        assert.truthy(not cel.object or cel.object:contains(cel.at[1], cel.at[2]))
+      end
+    end
+  end
+  if os.getenv "CELSPAN_VERBOSE" then
+    for name, value in pairs(sum) do print("followed", name, value) end
+  end
+  assert.equal(sum.areas, sum.right + sum.listed)
+  assert.equal(0, sum.wrong)
+  assert.truthy(sum.right >= 0.95 * sum.areas, ("%d of %d are right"):format(sum.right, sum.areas))
+end
+
+--- A box with a small circle in it, moved.
+local function box(x)
+  return celspan.stroke { width = 4, closed = true, points = { { x, 100 }, { x + 200, 100 },
+    { x + 200, 220 }, { x, 220 } } }
+    | celspan.stroke { width = 4,
+      d = ("M%d 160a20 20 0 1 0 40 0a20 20 0 1 0 -40 0"):format(x + 40) }
+end
+
+local SEEDS = { face = { 250, 160, "red" }, eye = { 160, 160, "blue" } }
+
+describe("followed areas", function()
+  it("of made characters are named, or listed", function() follow_all(1, 1, 6) end)
+  it("of twenty made characters are named, or listed #full", function()
+    follow_all(1, SCENES >= 300 and 20 or 3, 24)
+  end)
+
+  it("have the paint of their seeds", function()
+    local cels, unsure = ink.follow({ [3] = box(100), [7] = box(130) }, SEEDS)
+    assert.equal(0, #unsure)
+    assert.truthy(cels[7].eye.object:contains(190, 160))
+    assert.truthy(cels[7].face.object:contains(320, 160))
+    assert.falsy(cels[7].face.object:contains(190, 160))
+    local codes_of = celspan.pixels(celspan.rostrum { celspan.cel { cels[7].face.object } },
+      { size = { 400, 300 }, film = { 400, 300 } }):bytes()
+    local at = 4 * (160 * 400 + 280)
+    assert.equal("\255\0\0\255", codes_of:sub(at + 1, at + 4))
+  end)
+
+  it("that are not there are listed, and found later", function()
+    local without = celspan.stroke { width = 4, closed = true,
+      points = { { 110, 100 }, { 310, 100 }, { 310, 220 }, { 110, 220 } } }
+    local cels, unsure = ink.follow({ box(100), without, NOTHING, box(120) }, SEEDS,
+      { fallback = NOTHING })
+    assert.same({ 2, 3, 3 }, { unsure[1].drawing, unsure[2].drawing, unsure[3].drawing })
+    assert.equal("eye", unsure[1].name)
+    assert.near(170, unsure[1].at[1], 12)
+    assert.equal(NOTHING, cels[2].eye.object)
+    assert.equal(0, cels[3].face.sure)
+    assert.truthy(cels[4].eye.object:contains(180, 160) and cels[4].eye.sure >= 0.5)
+  end)
+
+  it("are refused where the first drawing has none", function()
+    local function of(seeds, drawings)
+      return function() ink.follow(drawings or { box(100) }, seeds) end
+    end
+    raises.each {
+      ["drawings[1]: seeds.a: the point (140, 160) lies on a line"] = of { a = { 140, 160 } },
+      ["drawings[1]: seeds.a: the point (5, 5) is outside"] = of { a = { 5, 5 } },
+      ["drawings[2]: seeds.a: the point (5, 5) is outside"] = of({ a = { 5, 5 } },
+        { [2] = NOTHING }),
+      ["seeds.a and seeds.b are in one area"] = of { a = { 250, 160 }, b = { 260, 160 } },
+      ["takes one or more seeds {x, y [, paint]} by name"] = of {},
+      ["follow takes one or more seeds {x, y [, paint]} by name"] = of { { 250, 160 } },
+      ["seeds.a must be {x, y [, paint]}"] = of { a = 5 },
+      ["takes lines of one or more drawings by number"] = of(SEEDS, {}),
+      ["drawings[2]: lines must be an object, or a drawing with one"] = of(SEEDS,
+        { box(100), false }),
+      ["drawings[2]: "] = of(SEEDS, { box(100), celspan.rect { 0, 0, 9, 9,
+        texture = celspan.picture { file = "no/such.png" } } }),
+    }
   end)
 end)

@@ -65,6 +65,54 @@ int cs_ink_areas_way(lua_State *L) {
   return 3;
 }
 
+/* ---------------------------------------------------------------- what areas are like */
+
+/* Counts a side between two pixels for the first of their areas, in the list at the top. */
+static void add_border(lua_State *L, uint32_t one, uint32_t other) {
+  lua_rawgeti(L, -1, one);
+  lua_getfield(L, -1, "borders");
+  lua_rawgeti(L, -1, other);
+  const lua_Integer before = lua_tointeger(L, -1);
+  lua_pushinteger(L, before + 1);
+  lua_rawseti(L, -3, other);
+  lua_pop(L, 3);
+}
+
+static void add_borders(lua_State *L, const cs_ink_areas *areas) {
+  const size_t width = (size_t)areas->width, size = cs_ink_areas_size(areas);
+  for (size_t i = 0; i < size; i++) {
+    const size_t others[] = {(i + 1) % width ? i + 1 : i, i + width < size ? i + width : i};
+    for (int side = 0; side < 2; side++) {
+      const uint32_t one = areas->labels[i], other = areas->labels[others[side]];
+      if (one != other) {
+        add_border(L, one, other);
+        add_border(L, other, one);
+      }
+    }
+  }
+}
+
+int cs_ink_areas_measures(lua_State *L) {
+  const cs_ink_areas *areas = areas_at(L);
+  double(*numbers)[CS_AREA_NUMBERS] = lua_newuserdatauv(L, areas->count * sizeof *numbers, 0);
+  cs_ink_areas_measure(areas, numbers);
+  lua_newtable(L);
+  for (size_t i = 0; i < areas->count; i++) {
+    if (numbers[i][0] == 0)
+      continue;
+    lua_newtable(L);
+    for (int k = 0; k < CS_AREA_NUMBERS; k++) {
+      lua_pushnumber(L, numbers[i][k]);
+      lua_rawseti(L, -2, k + 1);
+    }
+    lua_newtable(L);
+    lua_setfield(L, -2, "borders");
+    lua_rawseti(L, -2, (lua_Integer)i);
+  }
+  add_borders(L, areas);
+  return 1;
+}
+
 /* ---------------------------------------------------------------- pictures of areas */
 
 /* Colours of the picture of areas. None is a mixture of others, for which the tracer would take it:

@@ -134,6 +134,9 @@ int cs_ink_areas_at(lua_State *L);
 /* (areas, x, y [, x, y]) -> x, y, width of the narrowest place on the widest way to the other
  * point, or to the rim | nil, message */
 int cs_ink_areas_way(lua_State *L);
+/* (areas) -> { [label] = { size, sums of x, y, x * x, x * y, y * y over the pixels, x, y of a point
+ * inside; borders = { [label] = sides of pixels } } } */
+int cs_ink_areas_measures(lua_State *L);
 /* (areas, labels, whether with their halves of the lines) -> RGBA in which areas that touch differ,
  * { [label] = "#rrggbb" }, x, y, width, height */
 int cs_ink_areas_picture(lua_State *L);

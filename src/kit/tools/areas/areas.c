@@ -24,13 +24,8 @@ static celspan_status label_all(cs_ink_areas *a) {
 /* Gives walls the labels of the areas that are nearest to them. nearest: room for all places. */
 static celspan_status share_walls(cs_ink_areas *a, uint32_t *nearest) {
   const size_t size = cs_ink_areas_size(a);
-  unsigned char *is_free = cs_mem_array(a->context->memory, size, 1);
-  if (!is_free)
-    return cs_fail_memory(a->context);
-  for (size_t i = 0; i < size; i++)
-    is_free[i] = !a->walls[i];
-  celspan_status status = cs_nearest_find(a->context, is_free, a->width, a->height, nearest);
-  cs_mem_free(a->context->memory, is_free, size);
+  celspan_status status =
+      cs_nearest_find(a->context, a->walls, CS_WALL_NONE, a->width, a->height, nearest);
   for (size_t i = 0; status == CELSPAN_OK && i < size; i++)
     a->labels[i] = a->labels[nearest[i]];
   return status;
@@ -97,4 +92,24 @@ void cs_ink_areas_destroy(cs_ink_areas *areas) {
   cs_mem_free(memory, areas->labels, size * sizeof *areas->labels);
   cs_mem_free(memory, areas->boxes, areas->count * sizeof *areas->boxes);
   cs_mem_free(memory, areas, sizeof *areas);
+}
+
+void cs_ink_areas_measure(const cs_ink_areas *areas, double (*out)[CS_AREA_NUMBERS]) {
+  double length = 0; /* of the pixels of one area, without walls, that end here */
+  memset(out, 0, areas->count * sizeof *out);
+  for (size_t i = 0; i < cs_ink_areas_size(areas); i++) {
+    const size_t column = i % (size_t)areas->width;
+    const double x = (double)column + 0.5, y = (double)(i / (size_t)areas->width) + 0.5;
+    const double terms[] = {1, x, y, x * x, x * y, y * y};
+    double *own = out[areas->labels[i]];
+    for (size_t k = 0; k < sizeof terms / sizeof *terms; k++)
+      own[k] += terms[k];
+    const bool goes_on = column > 0 && areas->labels[i - 1] == areas->labels[i];
+    length = areas->walls[i] ? 0 : goes_on ? length + 1 : 1;
+    if (length > own[8]) {
+      own[6] = x + 0.5 - length / 2;
+      own[7] = y;
+      own[8] = length;
+    }
+  }
 }

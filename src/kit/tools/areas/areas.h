@@ -46,6 +46,11 @@ void cs_ink_areas_destroy(cs_ink_areas *areas); /* NULL is ignored */
 /* Closes openings: sets walls, and `thin`. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_ink_areas_close(cs_ink_areas *areas, double gap);
 
+/* For each label: its pixels; the sums of x, y, x * x, x * y and y * y of their middles; the middle
+ * of its longest part of a row that has no walls, x and y, and the length of that. */
+#define CS_AREA_NUMBERS 9
+void cs_ink_areas_measure(const cs_ink_areas *areas, double (*out)[CS_AREA_NUMBERS]);
+
 typedef struct cs_ink_leak {
   int32_t x, y;
   double width; /* pixels */

@@ -32,12 +32,8 @@ static bool is_rim(const cs_ink_areas *a, uint32_t place) {
 static celspan_status measure(search *s) {
   const cs_ink_areas *a = s->areas;
   const size_t size = cs_ink_areas_size(a);
-  unsigned char *is_ink = cs_mem_array(a->context->memory, size, 1);
-  if (!is_ink)
-    return cs_fail_memory(a->context);
-  for (size_t i = 0; i < size; i++)
-    is_ink[i] = a->walls[i] == CS_WALL_INK;
-  celspan_status status = cs_nearest_find(a->context, is_ink, a->width, a->height, s->squared);
+  celspan_status status =
+      cs_nearest_find(a->context, a->walls, CS_WALL_INK, a->width, a->height, s->squared);
   for (uint32_t i = 0; status == CELSPAN_OK && i < size; i++) {
     const uint32_t near = s->squared[i], width = (uint32_t)a->width;
     if (near == CS_NEAREST_NONE || is_rim(a, i))
@@ -49,7 +45,6 @@ static celspan_status measure(search *s) {
   for (uint32_t i = 0; i < size; i++)
     if (is_rim(a, i)) /* is joined first */
       s->squared[i] = UINT32_MAX;
-  cs_mem_free(a->context->memory, is_ink, size);
   return status;
 }
 

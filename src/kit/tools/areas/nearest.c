@@ -6,10 +6,12 @@ typedef struct part {
 } part;
 
 /* The rows of the nearest seeds of each column. */
-static void fill_columns(const unsigned char *is_seed, size_t width, size_t height,
-                         uint32_t *rows) {
+static void fill_columns(const unsigned char *plane, unsigned char seed, size_t width,
+                         size_t height, uint32_t *rows) {
   for (size_t i = 0; i < width * height; i++)
-    rows[i] = is_seed[i] ? (uint32_t)(i / width) : i < width ? CS_NEAREST_NONE : rows[i - width];
+    rows[i] = plane[i] == seed ? (uint32_t)(i / width)
+              : i < width      ? CS_NEAREST_NONE
+                               : rows[i - width];
   for (size_t i = width * (height - 1); i-- > 0;) {
     const uint32_t y = (uint32_t)(i / width), below = rows[i + width];
     if (below != CS_NEAREST_NONE && (rows[i] == CS_NEAREST_NONE || y - rows[i] > below - y))
@@ -47,14 +49,15 @@ static void fill_row(uint32_t *out, const uint32_t *rows, part *parts, int32_t w
   }
 }
 
-celspan_status cs_nearest_find(celspan_context *context, const unsigned char *is_seed,
-                               int32_t width, int32_t height, uint32_t *nearest) {
+celspan_status cs_nearest_find(celspan_context *context, const unsigned char *plane,
+                               unsigned char seed, int32_t width, int32_t height,
+                               uint32_t *nearest) {
   const size_t across = (size_t)width;
   uint32_t *rows = cs_mem_array(context->memory, across, sizeof *rows);
   part *parts = cs_mem_array(context->memory, across, sizeof *parts);
   const bool has_room = rows && parts;
   if (has_room)
-    fill_columns(is_seed, across, (size_t)height, nearest);
+    fill_columns(plane, seed, across, (size_t)height, nearest);
   for (int32_t y = 0; has_room && y < height; y++) {
     uint32_t *row = nearest + (size_t)y * across;
     for (size_t x = 0; x < across; x++)

@@ -10,8 +10,8 @@
 
 #define CS_NEAREST_NONE UINT32_MAX /* there is no seed at all */
 
-/* is_seed: a byte for each pixel of a picture whose sides are at most 16,384. nearest: the place of
- * a seed for each. Errors: NO_MEMORY. */
-CELSPAN_CHECKED celspan_status cs_nearest_find(celspan_context *context,
-                                               const unsigned char *is_seed, int32_t width,
-                                               int32_t height, uint32_t *nearest);
+/* Seeds are the bytes of that value in a plane whose sides are at most 16,384. nearest: the place
+ * of a seed for each pixel. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_nearest_find(celspan_context *context, const unsigned char *plane,
+                                               unsigned char seed, int32_t width, int32_t height,
+                                               uint32_t *nearest);

@@ -168,14 +168,9 @@ static celspan_status make(celspan_context *context, const cs_region_source *sou
 }
 
 cs_region_source cs_region_source_of(const cs_material *material, cs_corners corners) {
-  const cs_labels *labels = material->labels;
-  return (cs_region_source){cs_labels_at(labels, 0, 0),
-                            labels->stride,
-                            labels->width,
-                            labels->height,
-                            false,
-                            corners,
-                            material};
+  const cs_labels *l = material->labels;
+  const unsigned char *first = cs_labels_at(l, 0, 0);
+  return (cs_region_source){first, l->stride, l->width, l->height, false, corners, material};
 }
 
 celspan_status cs_regions_make(celspan_context *context, const cs_region_source *source,
