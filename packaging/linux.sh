@@ -184,8 +184,8 @@ mkdir -p "$tree/share/celspan/examples"/{fonts,type} "$tree/share/doc/celspan/do
 cp source/packaging/examples/*.lua "$tree/share/celspan/examples"
 # The examples in the pages use this font.
 cp source/scripts/type/block.ttf "$tree/share/celspan/examples/type"
-# The scenery of the recipes.
-cp -r source/scripts/stage "$tree/share/celspan/examples"
+# The scenery of the recipes, and the scans of a page.
+cp -r source/scripts/stage source/scripts/pencil "$tree/share/celspan/examples"
 cp source/README.md source/CHANGELOG.md source/LICENSE source/llms.txt "$tree/share/doc/celspan"
 cp source/docs/*.md "$tree/share/doc/celspan/docs"
 # The pictures are not in the archive, so its pages do not show any.

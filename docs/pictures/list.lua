@@ -7,6 +7,8 @@
 --   grid     a contact sheet with this number of columns and rows, instead of a frame
 --   background   a colour behind a frame that is transparent
 --   size     in pixels; of a frame, or what the contact sheet is made smaller to
+--   quality  of a loop, 50 by default
+--   set      a parameter and its value
 --   allow    a folder that the script may read, in addition to its own
 --   before   the page and name of an example that is run first, a program in plain Lua
 --   parts    frames that are rendered first, to a folder that the script gets as its argument
@@ -64,6 +66,13 @@ local list = {
   { name = "inked", page = "docs/guide-picture.md", size = "560x380" },
   { name = "valley", page = "docs/guide.md", frame = 32, size = "480x216" },
   { name = "exposure_sheet", script = "scripts/exposure_sheet.lua", frame = 8, size = "640x360" },
+  { name = "pencil_lines", page = "docs/from-pencil.md" },
+  { name = "pencil_between", page = "docs/from-pencil.md" },
+  { name = "pencil_paint", page = "docs/from-pencil.md" },
+  { name = "pencil_night", script = "scripts/pencil.lua", frame = 62, size = "480x270",
+    set = "time=night" },
+  { name = "pencil", script = "scripts/pencil.lua", loop = "all", size = "272x153",
+    quality = "20" },
   { name = "night", page = "docs/guide-shot.md", frame = 40, size = "480x270" },
   { name = "badges", page = "docs/cookbook.md", loop = "all" },
   { name = "brush_lines", page = "docs/lua-shapes.md", frame = 40 },
@@ -123,6 +132,8 @@ for _, recipe in ipairs {
   { "glitch_title", "1-48" }, { "logo_reveal", "all" }, { "film_leader", "1-48", "320x180" },
   { "every_shape", "all" }, { "scarf_walk", "all" }, { "harvest_charts", "all" },
   { "deep_title", "1-60" }, { "cel_shading", "1-48" },
+  { "boiling_lines", "all" }, { "paint_on_twos", "all" }, { "smear_frame", "all" },
+  { "day_and_night", "all" },
 } do
   local frames, size = recipe[2], recipe[3]
   local loop = type(frames) == "string" and frames or nil

@@ -36,12 +36,13 @@ end
 local function render(script, picture, output, argument, options)
   local arguments = { script, "--progress", "none", "-o", output }
   local function add(...) table.move({ ... }, 1, select("#", ...), #arguments + 1, arguments) end
-  if picture.loop then add("--fps", "12", "--quality", "50", "--no-dither") end
+  if picture.loop then add("--fps", "12", "--quality", picture.quality or "50", "--no-dither") end
   local frames = picture.loop or picture.frame or 1
   if frames ~= "all" then add("--frames", tostring(frames)) end
   if picture.size then add("--size", picture.size) end
   if picture.onion then add("--onion", picture.onion) end
   if picture.background then add("--background", picture.background) end
+  if picture.set then add("--set", picture.set) end
   if picture.allow then add("--allow", picture.allow) end
   if options and options ~= "" then add(options) end
   if argument then add("--allow", argument, "--", argument) end
@@ -51,7 +52,7 @@ end
 local parts = folder .. "/parts"
 run("mkdir -p", folder .. "/examples", parts)
 run("cp -r scripts/type scripts/paintings scripts/pictures scripts/drawings scripts/stage",
-  folder .. "/examples/")
+  "scripts/pencil", folder .. "/examples/")
 -- A script gets an absolute path, because it looks for files beside itself, and may read there.
 local pwd = assert(io.popen "pwd"):read "l"
 local absolute = parts:find "^/" and parts or pwd .. "/" .. parts

@@ -48,7 +48,8 @@ setup(function()
   os.remove(folder)
   assert(os.execute(("mkdir -p %s/bin && ln -s '%s' %s/bin/celspan")
     :format(folder, BINARY, folder)))
-  assert(os.execute(("cd scripts && cp -r pictures drawings stage type paintings demo/line.tsv %s/")
+  assert(os.execute(("cd scripts && cp -r pictures drawings stage type paintings pencil pencil.lua "
+    .. "demo/line.tsv %s/")
     :format(folder)))
   for _, page in ipairs(pages) do
     markdown.save(page, folder, function(block)
