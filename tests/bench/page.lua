@@ -75,14 +75,14 @@ function Page.names(first, columns)
   return names
 end
 
---- A plot of scripts/plot.lua.
-function Page:plot(name, ...)
+--- A plot of scripts/plot.lua. about: what it shows, for those who do not see it.
+function Page:plot(name, about, ...)
   local file = ("%s/pictures/bench-%s.png"):format(self.docs, name)
   assert(os.execute("CELSPAN_PATH='./?.lua' " .. Runner.command(self.celspan, "render",
     "tests/bench/scripts/plot.lua", "--trust", "--progress", "none", "-o", file, "--",
     self.folder .. "/bench.csv", ...)))
   if self.out[#self.out] ~= "" then self:put "" end
-  self:put("![](pictures/bench-", name, ".png)")
+  self:put("![", about, "](pictures/bench-", name, ".png)")
   self:put ""
 end
 

@@ -63,7 +63,9 @@ local function defocus(page)
 A frame of 4096 x 4096; the others blur the pixels of the sharp frame with the same Gaussian
 (`./run bench defocus figure11`). `over`: stopped at this limit.
 ]], names = page.names({ "frame", "radius" }, columns) }
-  if page.run:one { part = "defocus" } then page:plot("defocus", "defocus") end
+  if page.run:one { part = "defocus" } then
+    page:plot("defocus", "time against radius", "defocus")
+  end
 end
 
 local function groups(page)
@@ -145,8 +147,8 @@ function report.paper(page)
   page:put [[
 Figure 13: 10 and 100 shapes to spans. Figure 14: drawn shapes in front of a photograph, as pictures
 or as geometry (`./run bench shapes figure14`).]]
-  page:plot("figure13", "figure13")
-  page:plot("figure14", "figure14")
+  page:plot("figure13", "time against side", "figure13")
+  page:plot("figure14", "time against side", "figure14")
 end
 
 return report

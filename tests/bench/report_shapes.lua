@@ -104,8 +104,8 @@ celspan's time to colour spans of 10, 100 and 1000 random shapes (`./run bench s
 In the plots, *Blend2D, published* are its best published times, on another machine; *fill of the
 runs* is the time to write a picture's runs of one colour where they are known, a lower limit.
 ]]
-  page:plot("ratios", "ratios")
-  page:plot("shapes-100", "shapes", "100")
+  page:plot("ratios", "how many times celspan's time others take", "ratios")
+  page:plot("shapes-100", "100 shapes: time against side", "shapes", "100")
 end
 
 --- The peak of memory, of whole processes.

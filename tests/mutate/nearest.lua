@@ -134,8 +134,9 @@ return {
   recolour = { "spec/palettes" },
   include = { "spec/hosts", "unit/embedding", "example/memory", "example/host", "spec/embedding" },
 
-  ["docs"] = { "spec/docs" },
-  ["README.md"] = { "spec/docs" },
+  ["docs"] = { "spec/docs", "spec/site" },
+  ["docs/site"] = { "spec/site" },
+  ["README.md"] = { "spec/docs", "spec/site" },
   ["examples"] = { "example/memory", "example/surface", "example/letters", "example/painting",
     "example/embed", "example/facts", "example/host", "example/sandbox", "spec/embedding",
     "sandbox/sandbox" },

@@ -1,0 +1,268 @@
+// Makes the site of the documentation: each page of menu.json as HTML, and each file of the tree
+// to which they link as a page with its text. Nothing in it comes from another server, and no
+// page needs a script. From the top of the tree:
+//
+//   node docs/site/make.js FOLDER
+//
+// A complete script is a figure, <figure class="script" data-script="NAME">, with its name, its
+// code and, in <div class="stage">, its picture: the one of that name in the same section.
+const { execFileSync } = require("child_process");
+const fs = require("fs");
+const path = require("path");
+const { posix } = path;
+module.paths.push("/usr/share/nodejs"); // where Debian's packages are
+const markdown = require("markdown-it");
+const { escape, way, whole } = require("./layout.js");
+
+const LANGUAGES = { lua: "lua", sh: "bash", c: "c", h: "c", json: "json", python: "python",
+  py: "python", html: "html", js: "javascript", meson: "meson" };
+const AS_IS = ["llms.txt"]; // for programs, which expect it at this address
+
+const folder = process.argv[2];
+const pages = new Map(); // the page of each file of the tree that is one
+const files = new Set(); // of the site, that are copied as they are
+const md = markdown();
+
+function write(name, text) {
+  const file = path.join(folder, name);
+  fs.mkdirSync(path.dirname(file), { recursive: true });
+  fs.writeFileSync(file, text);
+}
+
+// ---- code
+
+const codes = []; // [language, code] of all pages, because one program colours them all
+
+/** Code, in which `\0NUMBER\0` stands for what colour() puts there. */
+function block(code, ending) {
+  const language = LANGUAGES[ending];
+  const text = language ? `\0${codes.push([language, code]) - 1}\0` : escape(code);
+  return `<pre tabindex="0"><code>${text}</code></pre>\n`;
+}
+
+/** A function that puts coloured code into the text of a page. */
+function colour() {
+  const shown = JSON.parse(execFileSync("python3", [path.join(__dirname, "highlight.py")],
+    { input: JSON.stringify(codes), maxBuffer: 1 << 28 }));
+  return text => text.replace(/\0(\d+)\0/g, (all, number) => shown[number]);
+}
+
+// ---- links and pictures
+
+/** The page that shows a file or the names in a folder: it is made when a link leads to it. */
+function sourcePage(file) {
+  if (!pages.has(file)) {
+    pages.set(file, { file, address: `source/${file}.html`, title: file, name: file,
+      about: `${file} of celspan`, headings: [], kind: "source" });
+  }
+  return pages.get(file);
+}
+
+/** The address, seen from a page, of what a link in its Markdown means. */
+function resolved(page, target) {
+  if (/^(https?:|#)/.test(target)) return target;
+  const [name, anchor] = target.split("#");
+  const file = posix.join(posix.dirname(page.file), name).replace(/[/]$/, "");
+  if (!fs.existsSync(file)) throw new Error(`${page.file}: there is no ${file}`);
+  if (AS_IS.includes(file)) {
+    files.add(file);
+    return way(page.address, file);
+  }
+  const { address } = pages.get(file) ?? sourcePage(file);
+  return way(page.address, address) + (anchor ? `#${anchor}` : "");
+}
+
+/** { width, height } of a picture, from the first chunk of its file. */
+function sizeOf(file) {
+  const bytes = fs.readFileSync(file), kind = bytes.toString("latin1", 12, 16);
+  if (kind === "IHDR") return { width: bytes.readUInt32BE(16), height: bytes.readUInt32BE(20) };
+  if (kind === "VP8X") {
+    return { width: bytes.readUIntLE(24, 3) + 1, height: bytes.readUIntLE(27, 3) + 1 };
+  }
+  throw new Error(`${file}: neither PNG nor a moving WebP`);
+}
+
+/** A picture with its size, which is copied to pictures/. */
+function showPicture(page, token, about) {
+  const file = posix.join(posix.dirname(page.file), token.attrGet("src"));
+  const { width, height } = sizeOf(file);
+  files.add(file);
+  const address = way(page.address, `pictures/${posix.basename(file)}`);
+  return `<img src="${address}" alt="${escape(about ?? token.content)}" width="${width}" height="${
+    height}" loading="lazy" decoding="async">`;
+}
+
+/** Whether a table without a head is of pictures above their captions. */
+const isWall = (tokens, i) => tokens[i + 1].type === "tbody_open"
+  && tokens[i + 4].content.includes("![");
+
+/** Heads without a word are left out, and cells without one in a head are no headings. */
+function dropEmptyHeads(tokens) {
+  for (let i = 0; i < tokens.length; i++) {
+    const { type } = tokens[i];
+    if (type === "th_open" && !tokens[i + 1].content) tokens[i].tag = tokens[i + 2].tag = "td";
+    if (type !== "thead_open") continue;
+    const end = tokens.findIndex((one, j) => j > i && one.type === "tbody_open");
+    if (!tokens.slice(i, end).some(({ content }) => content)) tokens.splice(i, end - i);
+  }
+}
+
+md.renderer.rules.image = (tokens, i, options, { page }) => showPicture(page, tokens[i]);
+md.renderer.rules.link_open = (tokens, i, options, { page }) =>
+  `<a${tokens[i].attrGet("class") ? ' class="anchor"' : ""} href="${
+    escape(resolved(page, tokens[i].attrGet("href")))}">`;
+md.renderer.rules.table_open = (tokens, i) => '<div class="table" tabindex="0"><table'
+  + `${isWall(tokens, i) ? ' class="wall"' : ""}>\n`;
+md.renderer.rules.table_close = () => "</table></div>\n";
+md.renderer.rules.code_block = (tokens, i) => block(tokens[i].content, "text");
+
+// ---- headings
+
+const plain = token => token.children.map(({ type, content, children }) =>
+  type === "softbreak" ? " " : children ? "" : content).join("");
+
+/** The anchor of a heading, as forges make it. */
+const slug = text => text.toLowerCase().replace(/[^\p{L}\p{N}\s_-]/gu, "").replace(/ /g, "-");
+
+/** Gives headings their anchors, and makes them links to themselves; collects them in the page. One
+ * is at most a level below that before it, for those who go from heading to heading. */
+function nameHeadings(page, tokens) {
+  const seen = {};
+  let level = 0;
+  page.headings = [];
+  tokens.forEach((token, i) => {
+    if (token.type !== "heading_open") return;
+    const inline = tokens[i + 1], text = plain(inline), base = slug(text);
+    const id = seen[base] ? `${base}-${seen[base]}` : base;
+    seen[base] = (seen[base] ?? 0) + 1;
+    token.attrSet("id", id);
+    level = Math.min(Number(token.tag.slice(1)), level + 1);
+    token.tag = tokens[i + 2].tag = `h${level}`;
+    page.headings.push({ level, text, id });
+    if (token.tag === "h1" || inline.children.some(({ type }) => type === "link_open")) return;
+    const [open, close] = md.parseInline("[x](y)", {})[0].children.filter(one => one.nesting);
+    open.attrs = [["class", "anchor"], ["href", `#${id}`]];
+    inline.children = [open, ...inline.children, close];
+  });
+}
+
+// ---- complete scripts
+
+const isPicture = token => token?.type === "inline" && token.children.length === 1
+  && token.children[0].type === "image";
+
+/** The name and the subject in the first line of a script, or nothing if it is not complete. */
+function scriptOf({ type, info, content }) {
+  if (type !== "fence" || info !== "lua" || !/^return /m.test(content)) return null;
+  if (/^-- error:|^-- \w+\.lua: a module/.test(content)) return null;
+  const [, name, about] = content.match(/^-- (\w+)\.lua(?:: (.*))?\n/) ?? [];
+  return name ? { name, about } : null;
+}
+
+/** The place of the picture with the name of a script between the headings around it, or -1. */
+function pictureBeside(tokens, at, name) {
+  const isSection = ({ type }) => type === "heading_open";
+  const after = tokens.findIndex((token, i) => i > at && isSection(token));
+  const from = tokens.slice(0, at).findLastIndex(isSection);
+  return tokens.findIndex((token, i) => i > from && (after < 0 || i < after) && isPicture(token)
+    && posix.parse(token.children[0].attrGet("src")).name === name);
+}
+
+/** Moves pictures to their scripts. */
+function joinScripts(tokens) {
+  for (const token of [...tokens]) {
+    const script = scriptOf(token);
+    if (!script) continue;
+    const at = tokens.indexOf(token), place = pictureBeside(tokens, at, script.name);
+    token.meta = { ...script, isBelow: place > at, picture: tokens[place]?.children[0] };
+    if (place >= 0) tokens.splice(place - 1, 3); // with the paragraph around it
+  }
+}
+
+md.renderer.rules.fence = (tokens, i, options, { page }) => {
+  const { content, info, meta } = tokens[i], code = block(content, info);
+  if (!meta) return code;
+  const { name, about, isBelow, picture } = meta;
+  const label = `<figcaption><b>${name}.lua</b>${about ? ` ${escape(about)}` : ""}</figcaption>\n`;
+  // Alone, "result" says nothing to those who do not see it.
+  const alt = picture?.content === "result" ? about ?? `the picture of ${name}.lua` : undefined;
+  const stage = picture ? `<div class="stage">${showPicture(page, picture, alt)}</div>\n` : "";
+  return `<figure class="script" data-script="${name}">${label}${isBelow ? code + stage
+    : stage + code}</figure>\n`;
+};
+
+/** Pictures without a text get that of their caption, the slanted words of the next paragraph. */
+function nameCaptioned(tokens) {
+  tokens.forEach((token, i) => {
+    if (!isPicture(token) || token.children[0].content) return;
+    const words = tokens.slice(i + 1).find(({ type }) => type === "inline").children;
+    const end = words.findIndex(({ type }) => type === "em_close");
+    token.children[0].content = plain({ children: words.slice(0, end) });
+  });
+}
+
+// ---- pages
+
+/** Makes the body of a page out of its Markdown. */
+function showMarkdown(page) {
+  const tokens = md.parse(fs.readFileSync(page.file, "utf8"), {});
+  nameHeadings(page, tokens);
+  joinScripts(tokens);
+  nameCaptioned(tokens);
+  dropEmptyHeads(tokens);
+  page.title = page.headings[0].text;
+  page.about = plain(tokens.find(({ type }, i) => type === "inline"
+    && tokens[i - 1].type === "paragraph_open")).slice(0, 200);
+  page.body = md.renderer.render(tokens, md.options, { page });
+}
+
+/** Makes the body of the page of a file, or of the names in a folder. */
+function showSource(page) {
+  const head = `<h1>${escape(page.file)}</h1>\n`;
+  if (!fs.statSync(page.file).isDirectory()) {
+    page.body = head + block(fs.readFileSync(page.file, "utf8"), posix.extname(page.file).slice(1));
+    return;
+  }
+  const names = fs.readdirSync(page.file).map(name => {
+    const target = sourcePage(posix.join(page.file, name));
+    return `<li><a href="${way(page.address, target.address)}">${escape(name)}</a></li>`;
+  });
+  page.body = `${head}<ul>${names.join("\n")}</ul>\n`;
+}
+
+/** The groups of the menu; each of their pages knows its neighbours. */
+function readMenu() {
+  const groups = Object.entries(JSON.parse(fs.readFileSync(path.join(__dirname, "menu.json"))))
+    .map(([name, listed]) => ({ name, pages: Object.entries(listed).map(([file, short]) => ({ file,
+      address: file === "README.md" ? "index.html" : `${posix.parse(file).name.toLowerCase()}.html`,
+      name: short, kind: file === "README.md" ? "home" : "page" })) }));
+  const all = groups.flatMap(group => group.pages);
+  all.forEach((page, i) => {
+    pages.set(page.file, Object.assign(page, { before: all[i - 1], after: all[i + 1] }));
+  });
+  for (const name of fs.readdirSync("docs")) {
+    if (name.endsWith(".md") && !pages.has(`docs/${name}`)) {
+      throw new Error(`docs/site/menu.json: docs/${name} is missing`);
+    }
+  }
+  return groups;
+}
+
+function make() {
+  const groups = readMenu();
+  for (const page of pages.values()) { // which grows
+    if (page.kind === "source") showSource(page);
+    else showMarkdown(page);
+  }
+  const coloured = colour();
+  for (const page of pages.values()) write(page.address, coloured(whole(page, groups)));
+  for (const file of files) {
+    write(AS_IS.includes(file) ? file : `pictures/${posix.basename(file)}`, fs.readFileSync(file));
+  }
+  for (const name of ["site.css", "site.js"]) {
+    write(name, fs.readFileSync(path.join(__dirname, name)));
+  }
+  console.log(`${pages.size} pages`);
+}
+
+make();

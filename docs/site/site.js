@@ -1,0 +1,56 @@
+// What a page does better with a script: it keeps the choice between dark and light for the next
+// page, copies code, and marks in the contents where the reader is.
+const root = document.documentElement;
+
+/** The chosen theme, or null; a browser may forbid to store one. */
+function stored(value) {
+  try {
+    if (value) localStorage.setItem("theme", value);
+    return localStorage.getItem("theme");
+  } catch {
+    return value ?? null;
+  }
+}
+
+root.dataset.theme = stored() ?? "auto"; // before the page is drawn
+
+function keepTheme() {
+  const choices = [...document.querySelectorAll("[name=theme]")];
+  for (const one of choices) {
+    one.checked = one.value === root.dataset.theme;
+    one.addEventListener("change", () => { root.dataset.theme = one.value; stored(one.value); });
+  }
+}
+
+function addCopyButtons() {
+  if (!navigator.clipboard) return;
+  for (const pre of document.querySelectorAll("pre")) {
+    const button = document.createElement("button");
+    button.className = "copy";
+    button.textContent = "Copy";
+    button.addEventListener("click", async () => {
+      await navigator.clipboard.writeText(pre.querySelector("code").textContent);
+      button.textContent = "Copied";
+      setTimeout(() => { button.textContent = "Copy"; }, 1500);
+    });
+    pre.append(button);
+  }
+}
+
+function markPlace() {
+  const links = new Map([...document.querySelectorAll(".contents a")]
+    .map(link => [document.getElementById(link.hash.slice(1)), link]));
+  let here;
+  const mark = () => {
+    const passed = [...links.keys()].filter(one => one.getBoundingClientRect().top < 120);
+    const link = links.get(passed.at(-1));
+    if (link === here) return;
+    here?.classList.remove("here");
+    link?.classList.add("here");
+    here = link;
+  };
+  document.addEventListener("scroll", () => requestAnimationFrame(mark), { passive: true });
+  mark();
+}
+
+document.addEventListener("DOMContentLoaded", () => { keepTheme(); addCopyButtons(); markPlace(); });
