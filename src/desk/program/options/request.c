@@ -9,11 +9,11 @@ enum { NAME_SIZE = 32, NAMES_MOST = 64 };
 
 /* ---------------------------------------------------------------- options */
 
-/* Names of options have two characters at least; the third one differs in most of them. */
 static const cs_option *find(const cs_verb *verb, const char *name) {
-  for (const cs_option *option = verb->options; option->name; option++)
-    if (option->name[2] == name[2] && strcmp(option->name, name) == 0)
-      return option;
+  const size_t size = strlen(name);
+  for (const char *at = verb->options; (at = strstr(at, name)); at += size)
+    if ((at == verb->options || at[-1] == ' ') && at[size] == ' ')
+      return cs_verb_option(verb, &at);
   return NULL;
 }
 
@@ -21,8 +21,8 @@ static const cs_option *find(const cs_verb *verb, const char *name) {
 static cs_exit refuse_unknown(const cs_verb *verb, const char *name, const char *value) {
   const char *names[NAMES_MOST];
   size_t count = 0;
-  for (const cs_option *option = verb->options; option->name && count < NAMES_MOST; option++)
-    names[count++] = option->name;
+  for (const char *at = verb->options; *at && count < NAMES_MOST;)
+    names[count++] = cs_verb_option(verb, &at)->name;
   const char *nearest = cs_suggest_name(name, names, count);
   if (nearest)
     return cs_report_usage("unknown option '%s': did you mean '%s'?", name, nearest);

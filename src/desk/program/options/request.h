@@ -1,39 +1,10 @@
-/* The operands and options that a verb takes, and those that it was given.
- *
- *   cs_verb: operands, options, help --> parsing, the help, the manual page, suggestions for names
- *   cs_request: the words of the command line, in which a verb looks for its options
- */
+/* The operands and options that a verb was given: the words of the command line, in which it looks
+ * for its options. */
 #pragma once
 
 #include "celspan/celspan.h"
-#include "program/options/argument.h"
+#include "program/options/verbs.h"
 #include "program/report/report.h"
-
-#define CS_OPERANDS_MAX 1024
-
-typedef struct cs_option {
-  const char *name;
-  const char *value;       /* how the help calls the value; NULL: a flag */
-  const cs_argument *kind; /* the kind of the value; NULL: a flag */
-  const char *help;
-} cs_option;
-
-typedef struct cs_verb {
-  const char *name;
-  const char *operands; /* as the help shows them */
-  size_t operand_least, operand_most;
-  bool is_hidden;      /* the help does not list it */
-  bool has_script;     /* the verb runs a script, which gets what follows "--" */
-  bool makes_folder;   /* -o names a folder */
-  bool asks_files;     /* the verb asks which files its script has read */
-  bool asks_warnings;  /* the verb asks for warnings about probable mistakes */
-  bool runs_again;     /* other processes run its script, too, or it is run again after changes */
-  bool runs_others;    /* it runs chunks in Lua that are neither scripts nor celspan's own */
-  bool plans_rows;     /* it plans runs of another verb, which make the rows and write the log */
-  const char *summary; /* one line */
-  const char *notes;   /* more help, whole lines, or NULL */
-  const cs_option *options; /* the last one has no name */
-} cs_verb;
 
 /* All texts are borrowed: from the command line; the script's text from the caller that runs the
  * verb. */

@@ -76,17 +76,19 @@ static void push_request(lua_State *L, const cs_request *request) {
 
 /* ---------------------------------------------------------------- the verbs */
 
-static void push_options(lua_State *L, const cs_option *options) {
+static void push_options(lua_State *L, const cs_verb *verb) {
+  lua_Integer count = 0;
   lua_newtable(L);
-  for (lua_Integer i = 1; options->name; i++, options++) {
+  for (const char *at = verb->options; *at;) {
+    const cs_option *option = cs_verb_option(verb, &at);
     lua_createtable(L, 0, 3);
-    cs_put_text(L, "name", options->name);
-    cs_put_text(L, "value", options->value);
-    cs_put_text(L, "allowed", options->kind ? options->kind->allowed : NULL);
-    cs_put_text(L, "help", options->help);
-    if (options->kind == &cs_argument_format)
+    cs_put_text(L, "name", option->name);
+    cs_put_text(L, "value", option->value);
+    cs_put_text(L, "allowed", option->kind ? option->kind->allowed : NULL);
+    cs_put_text(L, "help", option->help);
+    if (option->kind == &cs_argument_format)
       cs_put_flag(L, "is_format", true);
-    lua_rawseti(L, -2, i);
+    lua_rawseti(L, -2, ++count);
   }
 }
 
@@ -104,7 +106,7 @@ static int push_verbs(lua_State *L) {
     cs_put_text(L, "summary", verb->summary);
     cs_put_text(L, "notes", verb->notes);
     cs_put_flag(L, "has_script", verb->has_script);
-    push_options(L, verb->options);
+    push_options(L, verb);
     lua_setfield(L, -2, "options");
     lua_rawseti(L, -2, (lua_Integer)lua_rawlen(L, -2) + 1);
   }
