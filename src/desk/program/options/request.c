@@ -9,12 +9,12 @@ enum { NAME_SIZE = 32, NAMES_MOST = 64 };
 
 /* ---------------------------------------------------------------- options */
 
-static const cs_option *find(const cs_verb *verb, const char *name) {
+static bool has_option(const cs_verb *verb, const char *name) {
   const size_t size = strlen(name);
   for (const char *at = verb->options; (at = strstr(at, name)); at += size)
     if ((at == verb->options || at[-1] == ' ') && at[size] == ' ')
-      return cs_verb_option(verb, &at);
-  return NULL;
+      return true;
+  return false;
 }
 
 /* value: after "=", or NULL. */
@@ -26,7 +26,7 @@ static cs_exit refuse_unknown(const cs_verb *verb, const char *name, const char 
   const char *nearest = cs_suggest_name(name, names, count);
   if (nearest)
     return cs_report_usage("unknown option '%s': did you mean '%s'?", name, nearest);
-  if (value && find(verb, "--set"))
+  if (value && has_option(verb, "--set"))
     return cs_report_usage("unknown option '%s': a parameter of the script is given by --set %s=%s",
                            name, name + 2, value);
   return cs_report_usage("unknown option '%s' ('celspan help %s' lists the options)", name,
@@ -38,6 +38,7 @@ static cs_exit refuse_unknown(const cs_verb *verb, const char *name, const char 
 /* The words of a request, one option or operand at a time. */
 typedef struct reading {
   const cs_request *request;
+  bool is_new;             /* the words have not been parsed before: an option may be unknown */
   size_t next;             /* word */
   const cs_option *option; /* the option that was read last; NULL: an operand */
   const char *text;        /* the value of the option, NULL for a flag; or the operand */
@@ -58,7 +59,9 @@ static cs_exit read_option(reading *r) {
     return refuse_unknown(request->verb, word, NULL);
   memcpy(name, word, length);
   name[length] = '\0';
-  r->option = find(request->verb, name);
+  const char *at = name;
+  bool is_known = !r->is_new || has_option(request->verb, name);
+  r->option = is_known ? cs_verb_option(request->verb, &at) : NULL;
   r->text = word[length] ? word + length + 1 : NULL;
   if (!r->option)
     return refuse_unknown(request->verb, name, r->text);
@@ -119,7 +122,7 @@ static cs_exit take_option(const reading *r, cs_given_texts *texts) {
 
 static cs_exit take_operand(const char *operand, cs_request *out) {
   bool is_over = out->operand_count == out->verb->operand_most;
-  if (is_over && find(out->verb, "-o"))
+  if (is_over && has_option(out->verb, "-o"))
     return cs_report_usage("unexpected argument '%s': write '-o %s' if that is the output; usage: "
                            "celspan %s %s [options]",
                            operand, operand, out->verb->name, out->verb->operands);
@@ -146,7 +149,7 @@ static cs_exit take_script_arguments(const reading *r, cs_request *out) {
 cs_exit cs_request_parse(const cs_verb *verb, size_t count, char *const *words, cs_request *out) {
   cs_given_texts texts = {.count = 0}; /* so that too many texts are refused */
   *out = (cs_request){.verb = verb, .words = words, .word_count = count};
-  reading r = {.request = out};
+  reading r = {.request = out, .is_new = true};
   cs_exit outcome = CS_EXIT_OK;
   while (!is_read(&r) && outcome == CS_EXIT_OK) {
     outcome = read_word(&r);

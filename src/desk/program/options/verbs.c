@@ -571,10 +571,12 @@ const cs_verb cs_verbs[] = {
 
 /* ---------------------------------------------------------------- finding */
 
-/* The row of the name at the beginning of a text; NULL: there is none. */
+/* The row of the name at the beginning of a text; NULL: there is none. Names have two characters at
+ * least; the third one differs in most of them. */
 static const cs_option *find(const cs_option *rows, const char *text) {
   const size_t size = strcspn(text, " ");
-  while (rows->name && (strncmp(rows->name, text, size) != 0 || rows->name[size]))
+  while (rows->name && ((size > 2 && rows->name[2] != text[2]) ||
+                        strncmp(rows->name, text, size) != 0 || rows->name[size]))
     rows++;
   return rows->name ? rows : NULL;
 }
