@@ -671,6 +671,8 @@ void celspan_lua_limits_default(celspan_lua_limits *out, size_t struct_size);
 celspan_status celspan_lua_sandbox(lua_State *L, const celspan_lua_limits *limits);
 celspan_status celspan_lua_run(lua_State *L, const char *path, int argument_count, const char
   *const *arguments);
+celspan_status celspan_lua_run_text(lua_State *L, const char *name, const char *text, size_t size,
+  int argument_count, const char *const *arguments);
 celspan_status celspan_lua_set(lua_State *L, const char *name, const char *value);
 size_t celspan_lua_parameter_count(lua_State *L);
 celspan_status celspan_lua_parameter(lua_State *L, size_t place, celspan_parameter *out);

@@ -290,6 +290,51 @@ static int shown(lua_State *L) {
   return 1;
 }
 
+/* ---------------------------------------------------------------- texts */
+
+/* The status of a text as a script; what it left on the stack is removed. */
+static celspan_status run_text(host *h, const char *name, const char *text) {
+  int top = lua_gettop(h->L);
+  celspan_status status =
+      celspan_lua_run_text(h->L, name, text, text ? strlen(text) : 0, 1, (const char *[]){"7"});
+  CHECK(lua_gettop(h->L) == top + (status == CELSPAN_OK));
+  lua_settop(h->L, top);
+  return status;
+}
+
+/* A text finds the modules of the folder in its name. */
+static void check_beside(host *h) {
+  static const char text[] = "require 'paper' return rostrum { back = white }";
+  char folder[] = "/tmp/celspan-embedding-XXXXXX", module[64], name[64];
+  CHECK(mkdtemp(folder));
+  snprintf(module, sizeof module, "%s/paper.lua", folder);
+  snprintf(name, sizeof name, "%s/none.lua", folder);
+  FILE *file = fopen(module, "w");
+  CHECK(file && fputs("return 1", file) >= 0 && fclose(file) == 0);
+  CHECK(run_text(h, "none.lua", text) == CELSPAN_CALLBACK);
+  CHECK(run_text(h, name, text) == CELSPAN_OK);
+  CHECK(unlink(module) == 0 && rmdir(folder) == 0);
+}
+
+/* A text has the name, the folder and the arguments that it is given. */
+static void check_texts(bool is_sandboxed) {
+  host h;
+  open_host(&h);
+  if (is_sandboxed)
+    CHECK(celspan_lua_sandbox(h.L, NULL) == CELSPAN_OK);
+  CHECK(run_text(&h, "no/such/film.lua", "assert(... == '7') return rostrum { back = white }") ==
+        CELSPAN_OK);
+  CHECK(run_text(&h, "a.lua", "\n\nerror 'x'") == CELSPAN_CALLBACK);
+  CHECK_TEXT(celspan_context_error(h.context), "a.lua:3: x");
+  check_beside(&h);
+  CHECK(run_text(&h, "block 3", "return 7") == CELSPAN_CALLBACK);
+  CHECK_TEXT(celspan_context_error(h.context),
+             "block 3 must return a film or a rostrum, got number");
+  CHECK(run_text(&h, "film.lua", NULL) == CELSPAN_BAD_ARGUMENT);
+  CHECK(run_text(&h, NULL, STILL) == CELSPAN_BAD_ARGUMENT);
+  close_host(&h);
+}
+
 /* ---------------------------------------------------------------- parameters */
 
 static const char PARAMETERS[] =
@@ -544,6 +589,8 @@ int main(void) {
   check_films();
   check_marks();
   check_sounds();
+  check_texts(false);
+  check_texts(true);
   check_parameters(false);
   check_parameters(true);
   check_no_celspan();

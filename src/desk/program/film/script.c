@@ -323,10 +323,10 @@ cs_exit cs_script_open(celspan_context *context, const cs_request *request, cons
   CS_TRY_EXIT(start_script(out, request, path));
   const int count = (int)request->script_argument_count;
   const char *const *arguments = (const char *const *)request->script_arguments;
-  celspan_status status =
-      request->script
-          ? cs_lua_script_run_text(out->L, request->script, request->script_size, count, arguments)
-          : celspan_lua_run(out->L, path, count, arguments);
+  celspan_status status = request->script
+                              ? celspan_lua_run_text(out->L, "-", request->script,
+                                                     request->script_size, count, arguments)
+                              : celspan_lua_run(out->L, path, count, arguments);
   if (status == CELSPAN_BAD_ARGUMENT && cs_parameters_are_refused(out->L))
     return cs_report_usage("%s", celspan_context_error(context));
   if (status != CELSPAN_OK)

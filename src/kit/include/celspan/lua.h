@@ -89,6 +89,14 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_lua_run(lua_State *L, const c
                                                            int argument_count,
                                                            const char *const *arguments);
 
+/* The same for a script that is a text. name: its path, as messages call it, such as "shots/a.lua"
+ * or "-"; no file needs to be there. Errors: those of celspan_lua_run, and BAD_ARGUMENT without a
+ * name or a text. */
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_lua_run_text(lua_State *L, const char *name,
+                                                                const char *text, size_t size,
+                                                                int argument_count,
+                                                                const char *const *arguments);
+
 /* The value of a parameter (celspan.parameters), for the script that is run next: a text as after
  * `--set NAME=` of the program. Of two values for a name the later one holds. A value that the
  * script refuses, or that it has no parameter for, ends it with BAD_ARGUMENT; after celspan_lua_run

@@ -129,12 +129,12 @@ int cs_globals_assigned(lua_State *L) {
 
 /* ---------------------------------------------------------------- files */
 
-void cs_globals_note(lua_State *L, const char *source, const char *text) {
+void cs_globals_note(lua_State *L, const char *source, const char *text, size_t size) {
   int top = lua_gettop(L);
   luaL_checkstack(L, 8, "files");
   luaL_getsubtable(L, LUA_REGISTRYINDEX, FILES);
   if (text)
-    lua_pushstring(L, text);
+    lua_pushlstring(L, text, size);
   else
     lua_pushboolean(L, false);
   lua_setfield(L, -2, source);

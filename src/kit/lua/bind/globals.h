@@ -16,9 +16,9 @@ void cs_globals_open(lua_State *L);
 /* Pushes the table of found names, for the __index of globals. otherwise: the __index of a name
  * without a value, which uses argument 2 alone; NULL: none. */
 void cs_globals_push_found(lua_State *L, lua_CFunction otherwise);
-/* Notes that a file was loaded. source: Lua's name of it. text: NULL: that of the file. What it
- * assigns is found when it is needed. */
-void cs_globals_note(lua_State *L, const char *source, const char *text);
+/* Notes that a file was loaded. source: Lua's name of it. text, size: NULL, 0: those of the file.
+ * What it assigns is found when it is needed. */
+void cs_globals_note(lua_State *L, const char *source, const char *text, size_t size);
 /* celspan.names(globals): the globals with these names beside them, for the file that calls it. */
 int cs_globals_beside(lua_State *L);
 /* native.assigned(text): the names of celspan that a text assigns as globals, with their lines. */

@@ -123,7 +123,8 @@ static int refuse_file(lua_State *L, const char *path) {
 static int load(lua_State *L, call *c) {
   size_t skipped = c->text ? cs_globals_skipped(c->text, c->size) : 0;
   if (c->text)
-    return luaL_loadbufferx(L, c->text + skipped, c->size - skipped, "@-", "t");
+    return luaL_loadbufferx(L, c->text + skipped, c->size - skipped,
+                            lua_pushfstring(L, "@%s", c->path), "t");
   if (!cs_lua_script_accepts(c->path))
     return refuse_file(L, c->path);
   int outcome = luaL_loadfilex(L, c->path, "t");
@@ -161,7 +162,7 @@ static int run(lua_State *L) {
   if (outcome != LUA_OK)
     return lua_error(L);
   lua_pushfstring(L, "@%s", c->path);
-  cs_globals_note(L, lua_tostring(L, -1), c->text);
+  cs_globals_note(L, lua_tostring(L, -1), c->text, c->size);
   lua_pop(L, 1);
   luaL_checkstack(L, c->argument_count + 4, "too many arguments");
   for (int i = 0; i < c->argument_count; i++)
@@ -201,9 +202,9 @@ celspan_status celspan_lua_run(lua_State *L, const char *path, int argument_coun
                   &(call){.path = path, .argument_count = argument_count, .arguments = arguments});
 }
 
-celspan_status cs_lua_script_run_text(lua_State *L, const char *text, size_t size,
-                                      int argument_count, const char *const *arguments) {
-  return run_call(L, &(call){.path = "-",
+celspan_status celspan_lua_run_text(lua_State *L, const char *name, const char *text, size_t size,
+                                    int argument_count, const char *const *arguments) {
+  return run_call(L, &(call){.path = text ? name : NULL,
                              .text = text,
                              .size = size,
                              .argument_count = argument_count,

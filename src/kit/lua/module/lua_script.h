@@ -1,4 +1,4 @@
-/* What celspan_lua_run of celspan/lua.h can run: whether a file can be a script; and texts. */
+/* What celspan_lua_run of celspan/lua.h can run: whether a file can be a script. */
 #pragma once
 
 #include <stdbool.h>
@@ -9,8 +9,3 @@
  * a picture whose format is text; Lua itself refuses compiled chunks. Only files that can be read
  * twice are read; for pipes and missing files the result is true, and Lua reports the error. */
 bool cs_lua_script_accepts(const char *path);
-
-/* celspan_lua_run for a text. Its name in messages is "-", and its folder the current one. */
-CELSPAN_CHECKED celspan_status cs_lua_script_run_text(lua_State *L, const char *text, size_t size,
-                                                      int argument_count,
-                                                      const char *const *arguments);

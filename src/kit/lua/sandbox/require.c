@@ -80,7 +80,7 @@ static void load_module(lua_State *L, const char *search, const char *name) {
   if (luaL_loadfilex(L, path, "t") != LUA_OK)
     luaL_error(L, "error loading module '%s' from file '%s':\n\t%s", name, path,
                lua_tostring(L, -1));
-  cs_globals_note(L, lua_pushfstring(L, "@%s", path), NULL);
+  cs_globals_note(L, lua_pushfstring(L, "@%s", path), NULL, 0);
   lua_pop(L, 1);
   lua_insert(L, -2);
 }

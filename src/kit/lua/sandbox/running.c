@@ -65,7 +65,7 @@ static int load(lua_State *L) {
       lua_pushfstring(L, "load: mode '%s': the sandbox loads only text ('t')", mode);
     return push_failure(L);
   }
-  cs_globals_note(L, name, text);
+  cs_globals_note(L, name, text, size);
   if (has_globals) {
     lua_pushvalue(L, 4);
     lua_setupvalue(L, -2, 1); /* a compiled text has one upvalue: _ENV */
