@@ -5,7 +5,7 @@ files["tests/**/*_spec.lua"] = { std = "+busted" }
 -- The spec of a new project uses the assertions of celspan.spec.
 files["src/desk/program/verbs/project/*_spec.lua"] = { std = "+busted", ignore = { "143/assert" } }
 -- In scripts that the program runs, the names of the library are global.
-for _, folder in ipairs { "scripts", "docs/pictures", "packaging/examples",
+for _, folder in ipairs { "scripts", "docs/pictures", "packaging/examples", "tests/page",
                           "src/desk/program/verbs/project" } do
   files[folder .. "/**/*.lua"] = { ignore = { "113" } }
 end

@@ -11,6 +11,7 @@ return {
     "unit/probe", "spec/blend", "unit/light", "unit/through", "golden/golden",
     "unit/torture" },
   inside = { "unit/description" },
+  page = { "unit/embedding", "spec/modules" },
   common = { "spec/svg", "spec/text", "spec/raster", "spec/sound" },
   area = { "unit/wide", "unit/direct", "unit/intersections", "unit/again", "unit/kernels",
     "unit/light", "unit/long_rows", "property/area", "golden/golden", "unit/torture" },

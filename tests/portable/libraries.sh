@@ -1,7 +1,8 @@
 #!/bin/bash
 # What celspan is linked with on another platform, with the compiler of its cross file: zlib and
 # Lua, built from Debian's source packages, and for a processor that Debian has, its packages of
-# what the modules need, unpacked. This machine's own packages stay as they are.
+# what the modules need, unpacked. This machine's own packages stay as they are. For pages
+# (packaging/page) also what the type module needs is built from source packages.
 #
 #   tests/portable/libraries.sh NAME FOLDER     FOLDER/NAME gets include, lib and libraries.txt
 set -eu
@@ -38,12 +39,37 @@ apt_get() {
     "${@:3}"
 }
 
+release=$(. /etc/os-release && echo "$VERSION_CODENAME")
+
+# has_source NAME: whether the folder of a source package is there.
+has_source() { [ -n "$(find "$folder/sources" -maxdepth 1 -type d -name "$1*")" ]; }
+
+# fetch_sources PACKAGE...: an update may have gone from the mirror: the release's own version is
+# taken then.
 fetch_sources() {
-  [ -z "$(find "$folder/sources" -maxdepth 1 -name 'lua5.4-*')" ] || return 0
-  local own
+  local own package
   own=$(dpkg --print-architecture)
-  apt_get deb-src "$own" update
-  (cd "$folder/sources" && apt_get deb-src "$own" source zlib lua5.4)
+  for package in "$@"; do
+    has_source "$package" || [ -d "$folder/apt/deb-src-$own/lists/partial" ] ||
+      apt_get deb-src "$own" update
+    has_source "$package" ||
+      (cd "$folder/sources" && { apt_get deb-src "$own" source "$package" ||
+        apt_get deb-src "$own" source "$package/$release"; })
+  done
+}
+
+# Debian's mirrors no longer have the sources of its libunibreak: those of the next release.
+fetch_unibreak() {
+  has_source libunibreak || fetch_sources libunibreak 2>/dev/null || {
+    local own list
+    own=$(dpkg --print-architecture)
+    mkdir -p "$folder/apt/next-$own"
+    list=$folder/apt/next-$own/sources.list
+    sed s/bookworm/trixie/ "$folder/apt/deb-src-$own/sources.list" >"$list"
+    apt_get next "$own" update
+    (cd "$folder/sources" && apt_get next "$own" source --tar-only libunibreak &&
+      tar xf libunibreak_*.orig.tar.*)
+  }
 }
 
 unpack_packages() {
@@ -55,18 +81,21 @@ unpack_packages() {
   done
 }
 
-# in_cross_file NAME: the words of a list or a text in the cross file.
+# in_cross_file NAME: the words of a list or a text in the cross file; none, if it has none.
 in_cross_file() { sed -n "s/^$1 = //p" "$here/$name.txt" | tr -d "[],'"; }
+
+options=() # more options of the compiler
 
 # build NAME FILE...: an archive of these sources, in the current folder.
 build() {
-  local archive=$out/lib/lib$1.a file objects=()
+  local archive=$out/lib/lib$1.a file objects=() language
   shift
   for file in "$@"; do
-    objects+=("$out/objects/$(basename "$file" .c).o")
+    objects+=("$out/objects/$(basename "$file").o")
+    [[ $file == *.cc ]] && language=cpp || language=c
     # shellcheck disable=SC2046
-    $(in_cross_file c) -O2 -ffp-contract=off $(in_cross_file c_args) -fPIC -I. "-I$out/include" \
-      -c "$file" -o "${objects[-1]}"
+    $(in_cross_file $language) -O2 -ffp-contract=off $(in_cross_file c_args) -fPIC -I. \
+      "-I$out/include" ${options[@]+"${options[@]}"} -c "$file" -o "${objects[-1]}"
   done
   $(in_cross_file ar) rcs "$archive" "${objects[@]}"
 }
@@ -92,6 +121,49 @@ build_libraries() {
   describe lua5.4 5.4.4 lua5.4
 }
 
+build_expat() {
+  cd "$folder"/sources/expat-*/expat/lib
+  : >"$out/include/expat_config.h"
+  options=(-DXML_DTD -DXML_NS -DXML_CONTEXT_BYTES=1024 -DXML_POOR_ENTROPY -DBYTEORDER=1234 -w)
+  build expat xmlparse.c xmlrole.c xmltok.c
+  cp expat.h expat_external.h "$out/include"
+  describe expat 2.5.0 expat
+}
+
+build_harfbuzz() {
+  cd "$folder"/sources/harfbuzz-*/src
+  options=(-std=c++17 -fno-exceptions -fno-rtti -fno-threadsafe-statics -w
+    -DHB_CONFIG_OVERRIDE_H="\"$here/../../packaging/page/harfbuzz.h\"")
+  build harfbuzz harfbuzz.cc
+  cp hb.h hb-*.h "$out/include"
+  describe harfbuzz 6.0.0 harfbuzz
+}
+
+build_fribidi() {
+  cd "$folder"/sources/fribidi-*/lib
+  printf '#define %s\n' 'FRIBIDI "fribidi"' 'FRIBIDI_NAME "GNU FriBidi"' 'FRIBIDI_VERSION "1.0.8"' \
+    'FRIBIDI_INTERFACE_VERSION 4' 'FRIBIDI_INTERFACE_VERSION_STRING "4"' 'FRIBIDI_SIZEOF_INT 4' \
+    >"$out/include/fribidi-config.h"
+  options=(-DHAVE_STDLIB_H -DHAVE_STRING_H -DHAVE_STRINGIZE -DSTDC_HEADERS -w)
+  build fribidi fribidi-bidi.c fribidi-bidi-types.c fribidi-brackets.c fribidi-joining-types.c \
+    fribidi-mirroring.c fribidi-run.c fribidi.c
+  cp fribidi.h fribidi-*.h "$out/include"
+  describe fribidi 1.0.8 fribidi
+}
+
+build_unibreak() {
+  cd "$folder"/sources/libunibreak-*/src
+  options=(-w)
+  local file files=()
+  # Newer versions have more files.
+  for file in linebreak linebreakdata linebreakdef unibreakbase unibreakdef eastasianwidthdef; do
+    [ ! -f "$file.c" ] || files+=("$file.c")
+  done
+  build unibreak "${files[@]}"
+  cp ./*.h "$out/include"
+  describe libunibreak 1.1 unibreak
+}
+
 # The folder is the root of the unpacked packages, and what is built in it comes first.
 write_properties() {
   local own=$out/lib/pkgconfig
@@ -106,7 +178,15 @@ write_properties() {
 }
 
 [ ! -f "$out/libraries.txt" ] || exit 0
-fetch_sources
+fetch_sources zlib lua5.4
 build_libraries
+if [ "$name" = page ]; then
+  fetch_sources expat harfbuzz fribidi
+  fetch_unibreak
+  build_expat
+  build_harfbuzz
+  build_fribidi
+  build_unibreak
+fi
 [ -z "$debian" ] || unpack_packages
 write_properties >"$out/libraries.txt"

@@ -11,7 +11,8 @@ tree.DOOR = "core/inside"
 -- Folders of the kit that are no part of the library.
 local BUILT_APART = { "kit/plugins/moving", "kit/plugins/cairo", "kit/plugins/ocio",
   "kit/plugins/oiio", "kit/plugins/raster", "kit/plugins/type", "kit/plugins/icc",
-  "kit/plugins/web", "kit/lua/bind", "kit/lua/nouns", "kit/lua/module", "kit/lua/sandbox" }
+  "kit/plugins/web", "kit/lua/bind", "kit/lua/nouns", "kit/lua/module", "kit/lua/sandbox",
+  "kit/page" }
 
 --- The rank of each folder: the list of src/meson.build, where the door follows the core, folders
 --- that are built apart follow the kit, and the program follows all.

@@ -4,19 +4,17 @@
 #include <string.h>
 
 #include "celspan/lua.h"
-#include "lua/bind/built_in.h"
 #include "lua/bind/caller.h"
 #include "lua/bind/require.h"
 #include "lua/module/native.h"
-
-extern const cs_built_in cs_module_texts[];
+#include "lua/module/texts.h"
 
 /* ---------------------------------------------------------------- opening */
 
 static int run(lua_State *L, const char *folder, const char *file) {
   luaL_requiref(L, "celspan", luaopen_celspan, 0);
   lua_pop(L, 1);
-  cs_built_in_load(L, cs_module_texts, folder, file);
+  cs_texts_load(L, folder, file);
   lua_call(L, 0, 1);
   return 1;
 }

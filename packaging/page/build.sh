@@ -1,0 +1,74 @@
+#!/usr/bin/env bash
+# Makes celspan for web pages: one WebAssembly, its glue and what it asks for.
+#
+#   packaging/page/build.sh BUILD FOLDER     BUILD: a folder for what is compiled; FOLDER is deleted
+#                                            first
+#
+# Meson compiles with clang itself, because emcc begins an interpreter for each file; the C library
+# and the linking are emcc's.
+set -eu -o pipefail
+top=$(cd "$(dirname "$0")/../.." && pwd)
+rm -rf "$2"
+mkdir -p "$1/bin" "$2"
+build=$(cd "$1" && pwd)
+folder=$(cd "$2" && pwd)
+
+# compiler NAME CLANG OPTION...: the command of the cross file. Rows are drawn with -O2, because -O3
+# is larger and not faster here, and all else, which meson compiles with -Os, becomes as small as it
+# can be. Nothing is loaded at another address.
+compiler() {
+  cat >"$build/bin/$1" <<TEXT
+#!/bin/bash
+for word; do
+  case \$word in
+  -O2 | -Os) words+=(-Oz) ;;
+  -O3) words+=(-O2) ;;
+  -fPIC) ;;
+  *) words+=("\$word") ;;
+  esac
+done
+exec $2 ${*:3} "\${words[@]}"
+TEXT
+  chmod +x "$build/bin/$1"
+}
+
+options=$(emcc --cflags)
+options="${options/-fvisibility=default/-fvisibility=hidden} -msimd128 -mbulk-memory"
+options+=" -Wno-unused-command-line-argument"
+compiler page-cc clang "$options"
+compiler page-c++ clang++ "$options -Xclang -iwithsysroot/include/c++/v1"
+libraries=${options#*--sysroot=}
+libraries=${libraries%% *}/lib/wasm32-emscripten
+export PATH=$build/bin:$PATH
+cd "$top"
+mkdir -p "$build/libraries"
+tests/portable/libraries.sh page "$build/libraries"
+[ -f "$build/meson/build.ninja" ] || meson setup "$build/meson" -Dpage=true -Doptimization=s \
+  -Ddebug=false -D{desk,pictures,raster,colour,spaces,avif,webp,pdf,web}=disabled -Dtype=enabled \
+  -Dtests=false --cross-file tests/portable/page.txt \
+  --cross-file "$build/libraries/page/libraries.txt"
+ninja "-j${JOBS:-$(nproc)}" -C "$build/meson" page
+
+# Lua computes with the engine's functions (src/kit/lua/bind/libm.c).
+wrapped=(sin cos tan asin acos atan2 exp log log2 log10 pow)
+meson=$build/meson
+archives=("$meson"/src/kit/page/libcelspan_page{,_memory}.a
+  "$meson"/src/{kit/lua/module/libcelspan_lua,kit/plugins/type/libcelspan_type,libcelspan}.a
+  "$build"/libraries/page/lib/lib{lua5.4,harfbuzz,fribidi,unibreak,expat,z}.a)
+mkdir -p "$build/linked"
+wasm-ld -o "$build/linked/celspan.wasm" --whole-archive "${archives[@]:0:2}" --no-whole-archive \
+  "${archives[@]:2}" "-L$libraries" -l{c,dlmalloc,compiler_rt,c++-noexcept,c++abi-noexcept} \
+  "${wrapped[@]/#/--wrap=}" --import-undefined --no-entry --export-table --strip-debug \
+  --export-if-defined={malloc,free,setThrew,stackSave,stackRestore,__wasm_call_ctors} \
+  -z stack-size=1048576 --initial-memory=16777216 --max-memory=2147418112 --global-base=1024
+wasm-opt -Oz --enable-simd --enable-bulk-memory --enable-sign-ext --enable-mutable-globals \
+  --enable-nontrapping-float-to-int --low-memory-unused --zero-filled-memory \
+  --merge-similar-functions --strip-debug --strip-producers --strip-target-features \
+  "$build/linked/celspan.wasm" -o "$folder/celspan.wasm"
+cp "$top/packaging/page/engine.mjs" "$meson/src/kit/lua/module/more.json" "$folder"
+
+# What is linked in; FriBidi's licence (LGPL) wants a way to link another one, which is this script.
+for library in lua5.4 harfbuzz fribidi libunibreak expat zlib; do
+  printf '\n======== %s\n\n' "$library"
+  cat "$build/libraries/sources/$library"*/{debian/copyright,LICENCE} 2>/dev/null || true
+done | cat "$top/LICENSE" - >"$folder/LICENSES"

@@ -1,0 +1,193 @@
+// celspan in a page, a worker or node: one instance of the WebAssembly shows one film at a time.
+//
+//   const engine = await open(module, { files: { "/film.svg": bytes } });
+//   const film = engine.run("return rostrum { back = 'teal' }");
+//   engine.frame(film.first);
+//   const rgba = engine.pixels(640, 360);
+//
+// What cannot be drawn is an Error with the sentence of celspan; engine.missing() then has the paths
+// of files that were looked for in vain: give them with engine.file, and run the script again.
+
+const MISSING = -1, FOLDER = -2, NOT_THERE = -52; // of files.c; ENOSYS
+const PAGE = 65536; // bytes of WebAssembly's memory
+
+const encoder = new TextEncoder(), decoder = new TextDecoder();
+
+/** "a/./b", "/a//b" -> "/a/b" */
+const clean = (path) => "/" + path.split("/").reduce((way, part) =>
+  part === ".." ? way.slice(0, -1) : part && part !== "." ? [...way, part] : way, []).join("/");
+
+/** The files of a page, and what was looked for in vain. */
+class Files {
+  constructor() {
+    this.numbers = new Map();
+    this.bytes = [];
+    this.missed = new Set();
+  }
+
+  put(path, content) {
+    this.numbers.set(clean(path), this.bytes.length);
+    this.bytes.push(typeof content === "string" ? encoder.encode(content) : content);
+    this.missed.delete(clean(path));
+  }
+
+  find(path) {
+    const name = clean(path), folder = name === "/" ? name : name + "/";
+    if (this.numbers.has(name)) return this.numbers.get(name);
+    for (const other of this.numbers.keys()) if (other.startsWith(folder)) return FOLDER;
+    this.missed.add(name);
+    return MISSING;
+  }
+}
+
+/** What the WebAssembly asks of JavaScript. `of()` has its exports, when there are some. */
+const imports = (module, of, memory, files, now) => {
+  const jump = {}; // what longjmp throws
+  let high = 0; // the upper half of a result with 64 bits
+  const time = (at, unit) => {
+    const milliseconds = now(), seconds = Math.floor(milliseconds / 1e3);
+    const view = new DataView(of().memory.buffer);
+    view.setInt32(at, seconds, true);
+    view.setInt32(at + 4, (milliseconds - seconds * 1e3) * unit, true);
+    return 0;
+  };
+  const grow = (size) => {
+    try {
+      of().memory.grow(Math.ceil((size - of().memory.buffer.byteLength) / PAGE));
+      return 1;
+    } catch { return 0; }
+  };
+  const invoke = (index, ...values) => {
+    const stack = of().stackSave();
+    try { return of().__indirect_function_table.get(index)(...values); } catch (error) {
+      if (error !== jump) throw error;
+      of().stackRestore(stack);
+      of().setThrew(1, 0);
+    }
+  };
+  const stop = (what) => () => { throw new Error(`celspan: ${what}`); };
+  const page = {
+    find: (path) => files.find(memory.text(path)),
+    size: (file) => files.bytes[file].length,
+    read: (file, at, to, size) => memory.bytes().set(files.bytes[file].subarray(at, at + size), to),
+  };
+  const env = {
+    _emscripten_throw_longjmp: () => { throw jump; },
+    getTempRet0: () => high, setTempRet0: (value) => { high = value; },
+    clock: () => now() * 1e3, time: () => Math.floor(now() / 1e3),
+    clock_gettime: (clock, at) => time(at, 1e6), __clock_gettime: (clock, at) => time(at, 1e6),
+    gettimeofday: (at) => time(at, 1e3),
+    emscripten_get_heap_max: () => 2 ** 31 - PAGE, emscripten_resize_heap: grow,
+    abort: stop("abort"), exit: stop("exit"),
+  };
+  const none = { environ_sizes_get: (count, size) => (memory.put(count, 0), memory.put(size, 0)),
+                 environ_get: () => 0 };
+  const given = (from, name) => from === "page" ? page[name] : none[name] ?? env[name] ??
+    (name.startsWith("invoke_") ? invoke : () => NOT_THERE);
+  const all = {};
+  for (const { module: from, name } of WebAssembly.Module.imports(module))
+    (all[from] ??= {})[name] = given(from, name);
+  return all;
+};
+
+/** An engine. module: the compiled celspan.wasm. files: contents by path: texts or Uint8Arrays. now:
+ * the clock in milliseconds, which decides nothing that is drawn. */
+export const open = async (module, { files = {}, now = () => performance.now() } = {}) => {
+  let x; // the exports
+  const table = new Files();
+  const memory = {
+    bytes: () => new Uint8Array(x.memory.buffer),
+    text: (at) => decoder.decode(memory.bytes().subarray(at, memory.bytes().indexOf(0, at))),
+    put: (at, value) => (new DataView(x.memory.buffer).setInt32(at, value, true), 0),
+  };
+  x = (await WebAssembly.instantiate(module, imports(module, () => x, memory, table, now))).exports;
+  x.__wasm_call_ctors();
+
+  const room = (size) => {
+    const at = x.malloc(size);
+    if (!at) throw new Error(`celspan: there is no memory for ${size} bytes`);
+    return at;
+  };
+  /** Calls use(address, size, ...) with texts that end with a zero, and frees them. */
+  const lend = (texts, use) => {
+    const at = [];
+    try {
+      const all = texts.flatMap((text) => {
+        const bytes = encoder.encode(text);
+        at.push(room(bytes.length + 1));
+        memory.bytes().set(bytes, at.at(-1));
+        memory.bytes()[at.at(-1) + bytes.length] = 0;
+        return [at.at(-1), bytes.length];
+      });
+      return use(...all);
+    } finally { at.forEach((address) => x.free(address)); }
+  };
+  let page = 0;
+  const check = (status) => {
+    if (!status) return;
+    throw Object.assign(new Error(memory.text(x.error(page))), { status });
+  };
+  let rgba = 0, rgba_size = 0;
+  const pixels = (width, height) => {
+    const size = width * height * 4;
+    if (size > rgba_size) {
+      x.free(rgba);
+      rgba_size = 0;
+      rgba = room(size);
+      rgba_size = size;
+    }
+    check(x.pixels(page, width, height, rgba));
+    return new Uint8ClampedArray(x.memory.buffer, rgba, size);
+  };
+
+  const engine = {
+    /** Adds a file, or replaces it. */
+    file: (path, content) => table.put(path, content),
+    /** The paths that were looked for in vain, once. */
+    missing: () => {
+      const all = [...table.missed];
+      table.missed.clear();
+      return all;
+    },
+    /** What the script has printed. */
+    printed: () => page ? memory.text(x.printed(page)) : "",
+    /** Runs a script, and returns its film. name: its path, as messages call it. set: values of
+     * parameters, by name. steps, memory: limits of a run and of a frame (docs/c.md). */
+    run(script, { name = "film.lua", set = {}, steps = 0, memory: most = 0 } = {}) {
+      engine.close();
+      page = x.open(steps, most);
+      if (!page) throw new Error("celspan: there is no memory for a film");
+      for (const [key, value] of Object.entries(set))
+        lend([key, String(value)], (a, _, b) => check(x.set(page, a, b)));
+      lend([name, script], (a, _, b, size) => check(x.run(page, a, b, size)));
+      return engine.film();
+    },
+    /** The film: its size, its first frame, how many it has, and how many a second. */
+    film: () => ({ width: x.number(page, 0), height: x.number(page, 1), first: x.number(page, 2),
+                   count: x.number(page, 3), fps: x.number(page, 4) }),
+    /** Builds a frame, by its number. */
+    frame: (number) => check(x.frame(page, number)),
+    /** The frame in RGBA, 8 bits, straight alpha; valid until the next call. */
+    pixels,
+    /** The digest of the frame, as `celspan render --hash` prints it. */
+    digest(width, height) {
+      const at = room(16);
+      try {
+        check(x.digest(page, width, height, at));
+        const view = new DataView(x.memory.buffer);
+        return [4, 0, 12, 8].map((place) =>
+          view.getUint32(at + place, true).toString(16).padStart(8, "0")).join("");
+      } finally { x.free(at); }
+    },
+    /** The bytes that celspan holds, the most that it held, and the memory of the WebAssembly. */
+    memory: () => ({ held: x.number(page, 5), most: x.number(page, 6),
+                     all: x.memory.buffer.byteLength }),
+    /** Releases the film. */
+    close() {
+      if (page) x.close(page);
+      page = 0;
+    },
+  };
+  for (const [path, content] of Object.entries(files)) engine.file(path, content);
+  return engine;
+};

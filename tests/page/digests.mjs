@@ -1,0 +1,81 @@
+// Whether the engine of web pages draws the frames that the program draws: asks it questions such
+// as those of tests/golden/digests.txt, with the files of the current folder.
+//
+//   node tests/page/digests.mjs FOLDER QUESTIONS [EVERY]
+//
+// FOLDER: of ./run web. EVERY: 10 asks every tenth question. What this engine lacks is counted as
+// not asked; the last line is `EQUAL DIFFERENT NOT_ASKED`.
+import fs from "fs";
+import path from "path";
+import { pathToFileURL } from "url";
+
+const [folder, questions, every = "1"] = process.argv.slice(2);
+const { open } = await import(pathToFileURL(path.resolve(folder, "engine.mjs")));
+const module = await WebAssembly.compile(fs.readFileSync(`${folder}/celspan.wasm`));
+const more = JSON.parse(fs.readFileSync(`${folder}/more.json`, "utf8"));
+
+/** "1,5-7,10-20:5" -> numbers */
+const frames_of = (text) => text.split(",").flatMap((part) => {
+  const [, first, last, step] = part.match(/^(-?\d+)(?:-(-?\d+))?(?::(\d+))?$/);
+  const all = [];
+  for (let n = +first; n <= +(last ?? first); n += +(step ?? 1)) all.push(n);
+  return all;
+});
+
+/** The file of a path that was looked for, from the second file of Lua or from the disk. */
+const content_of = (name) => {
+  const own = name.slice(1);
+  if (own in more) return more[own];
+  for (const place of [own, name])
+    if (fs.existsSync(place) && fs.statSync(place).isFile()) return fs.readFileSync(place);
+  return undefined;
+};
+
+/** The lines of `celspan render --hash`. */
+const answer = (engine, script, options) => {
+  const film = engine.run(fs.readFileSync(script, "utf8"), { name: script });
+  const [width, height] = options["--size"]?.split("x").map(Number) ?? [film.width, film.height];
+  const last = film.first + film.count - 1;
+  return frames_of(options["--frames"] ?? `${film.first}-${last}`).map((number) => {
+    engine.frame(number);
+    return `${number} ${engine.digest(width, height)}`;
+  }).join("\n");
+};
+
+/** The same, again for as long as files are given that were missing. */
+const ask = async (script, options) => {
+  const engine = await open(module);
+  for (;;) {
+    let given = false, error;
+    try { return answer(engine, script, options); } catch (caught) { error = caught; }
+    for (const name of engine.missing()) {
+      const content = content_of(name);
+      if (content !== undefined) engine.file(name, content);
+      given ||= content !== undefined;
+    }
+    if (!given) throw error;
+  }
+};
+
+const counts = { equal: 0, different: 0, skipped: 0 };
+const blocks = fs.readFileSync(questions, "utf8").trim().split(/\n\n+/);
+for (const [place, block] of blocks.entries()) {
+  const [question, ...lines] = block.split("\n"), [kind, script, ...rest] = question.split(" ");
+  const options = Object.fromEntries(rest.map((word, i) => [word, rest[i + 1]]));
+  if (kind !== "render" || options["--crop"] || place % +every) continue;
+  try {
+    const found = await ask(script, options);
+    if (found === lines.join("\n")) counts.equal++;
+    else {
+      counts.different++;
+      console.error(`${question}\n${found}\nbut the program says\n${lines.join("\n")}`);
+    }
+  } catch (error) {
+    const lacks = / has no | needs the module | program celspan alone/.test(error.message);
+    counts[lacks ? "skipped" : "different"]++;
+    console.error(`${question}: ${lacks ? "" : "failed: "}${error.message}`);
+    if (!lacks && !error.status) console.error(error.stack);
+  }
+}
+console.log(counts.equal, counts.different, counts.skipped);
+process.exit(counts.different > 0 ? 1 : 0);
