@@ -68,7 +68,9 @@ wasm-opt -Oz --enable-simd --enable-bulk-memory --enable-sign-ext --enable-mutab
 cp "$top/packaging/page/engine.mjs" "$meson/src/kit/lua/module/more.json" "$folder"
 
 # What is linked in; FriBidi's licence (LGPL) wants a way to link another one, which is this script.
+cp "$top/LICENSE" "$folder/LICENSES"
 for library in lua5.4 harfbuzz fribidi libunibreak expat zlib; do
-  printf '\n======== %s\n\n' "$library"
-  cat "$build/libraries/sources/$library"*/{debian/copyright,LICENCE} 2>/dev/null || true
-done | cat "$top/LICENSE" - >"$folder/LICENSES"
+  licence=$(cat "$build/libraries/sources/$library"*/{debian/copyright,LICENCE} 2>/dev/null) || true
+  [ -n "$licence" ] || { echo "there is no licence of $library" >&2 && exit 1; }
+  printf '\n======== %s\n\n%s\n' "$library" "$licence" >>"$folder/LICENSES"
+done

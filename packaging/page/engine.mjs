@@ -10,6 +10,8 @@
 
 const MISSING = -1, FOLDER = -2, NOT_THERE = -52; // of files.c; ENOSYS
 const PAGE = 65536; // bytes of WebAssembly's memory
+const SIDE_MOST = 16384; // pixels: four bytes each are at most half of the memory
+const LIMIT_MOST = 2 ** 53;
 
 const encoder = new TextEncoder(), decoder = new TextDecoder();
 
@@ -127,8 +129,23 @@ export const open = async (module, { files = {}, now = () => performance.now() }
     if (!status) return;
     throw Object.assign(new Error(memory.text(x.error(page))), { status });
   };
+  const expectRun = () => {
+    if (!page) throw new Error("celspan: there is no film: run a script first");
+  };
+  const expectWhole = (name, value, most) => {
+    if (Number.isInteger(value) && value >= 1 && value <= most) return;
+    throw new Error(`celspan: ${name} must be a whole number from 1 to ${most}, got ${value}`);
+  };
+  let isBuilt = false; // a frame
+  const expectSize = (width, height) => {
+    expectRun();
+    if (!isBuilt) throw new Error("celspan: there is no frame: build one with engine.frame");
+    expectWhole("width", width, SIDE_MOST);
+    expectWhole("height", height, SIDE_MOST);
+  };
   let rgba = 0, rgba_size = 0;
   const pixels = (width, height) => {
+    expectSize(width, height);
     const size = width * height * 4;
     if (size > rgba_size) {
       x.free(rgba);
@@ -155,6 +172,8 @@ export const open = async (module, { files = {}, now = () => performance.now() }
      * parameters, by name. steps, memory: limits of a run and of a frame (docs/c.md). */
     run(script, { name = "film.lua", set = {}, steps = 0, memory: most = 0 } = {}) {
       engine.close();
+      if (!(steps >= 0 && steps <= LIMIT_MOST && most >= 0 && most <= LIMIT_MOST))
+        throw new Error(`celspan: steps and memory must be from 0 to 2^53, got ${steps} and ${most}`);
       page = x.open(steps, most);
       if (!page) throw new Error("celspan: there is no memory for a film");
       for (const [key, value] of Object.entries(set))
@@ -163,14 +182,22 @@ export const open = async (module, { files = {}, now = () => performance.now() }
       return engine.film();
     },
     /** The film: its size, its first frame, how many it has, and how many a second. */
-    film: () => ({ width: x.number(page, 0), height: x.number(page, 1), first: x.number(page, 2),
+    film: () => (expectRun(), { width: x.number(page, 0), height: x.number(page, 1), first: x.number(page, 2),
                    count: x.number(page, 3), fps: x.number(page, 4) }),
     /** Builds a frame, by its number. */
-    frame: (number) => check(x.frame(page, number)),
+    frame(number) {
+      expectRun();
+      if (!Number.isSafeInteger(number))
+        throw new Error(`celspan: a frame is a whole number, got ${number}`);
+      isBuilt = false;
+      check(x.frame(page, number));
+      isBuilt = true;
+    },
     /** The frame in RGBA, 8 bits, straight alpha; valid until the next call. */
     pixels,
     /** The digest of the frame, as `celspan render --hash` prints it. */
     digest(width, height) {
+      expectSize(width, height);
       const at = room(16);
       try {
         check(x.digest(page, width, height, at));
@@ -180,12 +207,13 @@ export const open = async (module, { files = {}, now = () => performance.now() }
       } finally { x.free(at); }
     },
     /** The bytes that celspan holds, the most that it held, and the memory of the WebAssembly. */
-    memory: () => ({ held: x.number(page, 5), most: x.number(page, 6),
+    memory: () => (expectRun(), { held: x.number(page, 5), most: x.number(page, 6),
                      all: x.memory.buffer.byteLength }),
     /** Releases the film. */
     close() {
       if (page) x.close(page);
       page = 0;
+      isBuilt = false;
     },
   };
   for (const [path, content] of Object.entries(files)) engine.file(path, content);

@@ -49,6 +49,7 @@ LACKS_SCANS(cs_scanning_lines)
 LACKS_AREAS(cs_ink_areas_make)
 LACKS_AREAS(cs_ink_areas_at)
 LACKS_AREAS(cs_ink_areas_way)
+LACKS_AREAS(cs_ink_areas_measures)
 LACKS_AREAS(cs_ink_areas_picture)
 
 #define LACKS_RELIGHTING(name) LACKS(name, "relighting")
