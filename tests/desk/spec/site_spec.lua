@@ -209,7 +209,7 @@ describe("a page of the site #plain", function()
           "[value=${value}]").parentElement.getBoundingClientRect();
           return [box.left + box.width / 2, box.top + box.height / 2]; })()`);
         await page.click(x, y);
-        await page.pause(0.3);
+        await page.settle();
         grounds.push(await ground());
       }
       await wish("dark");
@@ -218,11 +218,11 @@ describe("a page of the site #plain", function()
         .map(one => document.querySelector(one).checkVisibility()
           && document.querySelector(one).getBoundingClientRect().height > 10)`);
       await size(390, 844);
-      await page.pause(0.3);
+      await page.settle();
       const menu = `document.querySelector(".menu > details")`;
       const before = await page.get(`${menu}.getBoundingClientRect().height`);
       await page.click(60, 68);
-      await page.pause(0.3);
+      await page.settle();
       const after = await page.get(`${menu}.getBoundingClientRect().height`);
       return { grounds, shown, opened: after > before + 200, hasNoScript:
         await page.get(`!document.querySelector(".copy")`) };]=])
