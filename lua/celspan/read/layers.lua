@@ -198,6 +198,12 @@ local function make_tree(list, width, height, skipped, options)
   return complete_tree(list, width, height, skipped, options.space)
 end
 
+--- The tree with another list; itself without one.
+local function with_list(tree, list)
+  return list and moving(complete_tree(list, tree.width, tree.height, tree.skipped, spaces[tree]),
+    tree) or tree
+end
+
 --- A copy of a layer whose objects were changed by a function.
 local function changed(entry, change)
   local copy, source = setmetatable({}, Entry), {}
@@ -219,7 +225,7 @@ end
 function Tree.__recolour(tree, change)
   local list = {}
   for i, entry in ipairs(tree) do list[i] = changed(entry, change) end
-  return complete_tree(list, tree.width, tree.height, tree.skipped, spaces[tree])
+  return with_list(tree, list)
 end
 
 -- ---------------------------------------------------------------- paintings
@@ -431,12 +437,6 @@ local function changed_list(list, path, changes, done)
     is_changed = is_changed or children ~= nil or change ~= nil and change ~= false
   end
   return is_changed and copy or nil
-end
-
---- The tree with another list; itself without one.
-local function with_list(tree, list)
-  return list and moving(complete_tree(list, tree.width, tree.height, tree.skipped, spaces[tree]),
-    tree) or tree
 end
 
 --- The painting with layers replaced, inner ones first. Each function gets the object of the layer

@@ -1,5 +1,6 @@
 --- Paintings of Krita that move: their drawings, opacities and sheets, as Krita shows them.
 local celspan = require "celspan"
+local ink = require "celspan.ink"
 local json = require "celspan.json"
 local layers = require "celspan.layers"
 local paintings = require "tests.support.paintings"
@@ -129,6 +130,15 @@ describe("a painting of Krita that moves", function()
     local moved = tree:with { ink = { pivot = { 1, 1 } } }
     assert.are.equal("2", shown(moved:at(7)))
     assert.are.same({ 12, 2, 9 }, { moved.fps, moved.from, moved.to })
+  end)
+
+  it_reads_archives("moves in other colours, too", function()
+    local tree = read(content({ 4, "FILE" }, { 7, "FILE.f1" }))
+    local night = ink.recolour(tree, "#00ff00", "#000000")
+    assert.are.same({ 12, 2, 9 }, { night.fps, night.from, night.to })
+    assert.are.equal("1", shown(night:at(6)))
+    assert.are.equal("2", shown(night:at(7)))
+    assert.are.equal("\0\0\0\255", codes(night:at(7).object, 4, 4):sub(1, 4))
   end)
 
   it_reads_archives("changes its opacity along lines, curves and steps", function()
