@@ -13,8 +13,8 @@ local workbench = require "tests.support.workbench"
 local root = "../krita/"
 local it_reads_archives = present.type() and it or pending
 
---- A painting of a layer that moves. keys: its channels; members: the pixels of its drawings.
-local function moving(keys, fields)
+--- A layer that moves. keys: its channels; members: the pixels of its drawings.
+local function layer_of(keys, fields)
   local layer = { name = "ink", x = 0, y = 0, w = 4, h = 4,
     pixel = function() return 255, 0, 0, 255 end,
     attributes = ' keyframes="FILE.keyframes.xml"', members = {
@@ -26,9 +26,15 @@ local function moving(keys, fields)
     end }
   end
   for name, value in pairs(fields or {}) do layer[name] = value end
-  return paintings.krita { w = 4, h = 4, layers = { layer },
+  return layer
+end
+
+local function painting_of(list)
+  return paintings.krita { w = 4, h = 4, layers = list,
     inside = '<animation><framerate value="12"/><range from="2" to="9"/></animation>' }
 end
+
+local function moving(...) return painting_of { layer_of(...) } end
 
 local function content(...)
   local list = {}
@@ -141,6 +147,26 @@ describe("a painting of Krita that moves", function()
     assert.are.equal("\0\0\0\255", codes(night:at(7).object, 4, 4):sub(1, 4))
   end)
 
+  it_reads_archives("has drawings only in layers with pixels", function()
+    local tree = read(content { 4, "FILE" } .. opacity({ 2, 0 }, { 6, 255 }),
+      { kind = "adjustmentlayer" })
+    assert.are.equal(0.5, tree:at(4):get "ink".opacity)
+    assert.are.same({}, tree:at(4):get "ink".children or {})
+  end)
+
+  it_reads_archives("keeps the drawings and the keys of each layer", function()
+    -- foremost first in the file: "layer2" is that of "ink"
+    local stray = '<channel name="opacity"><leftTangent x="-2" y="-200"/></channel>'
+    local tree = assert(layers.read(written(painting_of {
+      layer_of(stray .. content({ 2, "layer2.f1" }, { 5, "layer2" }), { name = "hair" }),
+      layer_of(content({ 2, "FILE" }, { 4, "FILE.f1" })
+        .. opacity({ 2, 0, "bezier" }, { 6, 255, "bezier" })) })))
+    assert.is_true(math.abs(tree:at(4):get "ink".opacity - 0.5) < 1e-9)
+    assert.are.same({ 2, 2 }, { #tree:get "ink".children, #tree:get "hair".children })
+    local hair = tree:at(2):get "hair".object
+    assert.are.equal("\0\255\0\255", codes(hair, 4, 4):sub(1, 4))
+  end)
+
   it_reads_archives("changes its opacity along lines, curves and steps", function()
     local function at(frame, ...) return read(opacity(...)):at(frame):get "ink".opacity end
     assert.are.equal(0.5, at(4, { 2, 0 }, { 6, 255 }))
@@ -161,6 +187,8 @@ describe("a painting of Krita that moves", function()
     ["a key that points nowhere"] = { content { 0, "FILE.f9" }, "FILE%.f9" , "not in the archive" },
     ["keys out of order"] = { content({ 5, "FILE" }, { 5, "FILE.f1" }),
       "keyframes%.xml:2: the key of frame 5 follows that of frame 5" },
+    ["keys out of order around another channel"] = { content { 5, "FILE" } .. opacity { 0, 9 }
+      .. content { 4, "FILE.f1" }, "the key of frame 4 follows that of frame 5" },
     ["a frame that is no number"] = { content { "soon", "FILE" }, 'time is "soon"' },
     ["an opacity beyond its range"] = { opacity { 0, 300 }, 'value is "300"' },
     ["keys that are no XML"] = { "<channel", "keyframes%.xml" },

@@ -161,7 +161,9 @@ celspan_status cs_document_read(celspan_context *context, const cs_input *input,
                           .painting = painting,
                           .format = format,
                           .group = CS_CONTENTS_NONE};
-  CS_TRY(parse(&document, cs_zip_find(zip, format->member)));
+  celspan_status status = parse(&document, cs_zip_find(zip, format->member));
+  cs_mem_free(context->memory, document.shown, zip->count * sizeof *document.shown);
+  CS_TRY(status);
   if (!document.has_size)
     return cs_document_fail(&document, CELSPAN_INPUT, "does not declare the size of the painting");
   cs_contents_reverse(painting);

@@ -35,6 +35,12 @@ typedef struct cs_document_format {
   uint32_t depth; /* the most elements inside one another, enough for the deepest groups */
 } cs_document_format;
 
+/* Krita: the first key, from 1, that shows a member of the archive in the layer whose drawings were
+ * added last, and the place of its drawing. An earlier layer may have left a key that is less. */
+typedef struct cs_document_shown {
+  size_t key, drawing;
+} cs_document_shown;
+
 struct cs_document {
   celspan_context *context;
   const cs_input *input;
@@ -44,14 +50,15 @@ struct cs_document {
   const char *const *attributes; /* the attributes of the element that begins */
   uint64_t line;
   celspan_status status;
-  size_t group;       /* the innermost open one; CS_CONTENTS_NONE: none */
-  bool has_size;      /* an element has given the size of the painting */
-  char folder[256];   /* Krita: the folder in the archive that contains the layers */
-  size_t unnamed;     /* OpenRaster: open stacks; the outermost one is the painting itself */
-  char channel;       /* Krita: of the keys: 'c'ontent, 'o'pacity, 0 for others */
-  double opaque;      /* Krita: what an opacity of 1 is in keys: 100 or 255 */
-  int64_t scanned;    /* bytes of members that were unpacked */
-  cs_profile profile; /* Krita: of the image */
+  size_t group;             /* the innermost open one; CS_CONTENTS_NONE: none */
+  bool has_size;            /* an element has given the size of the painting */
+  char folder[256];         /* Krita: the folder in the archive that contains the layers */
+  size_t unnamed;           /* OpenRaster: open stacks; the outermost one is the painting itself */
+  char channel;             /* Krita: of the keys: 'c'ontent, 'o'pacity, 0 for others */
+  double opaque;            /* Krita: what an opacity of 1 is in keys: 100 or 255 */
+  cs_document_shown *shown; /* Krita: by member; NULL until a layer has drawings */
+  int64_t scanned;          /* bytes of members that were unpacked */
+  cs_profile profile;       /* Krita: of the image */
 };
 
 /* Reads the format's document and all that it names. Errors: INPUT, LIMIT, NO_MEMORY. */

@@ -199,20 +199,29 @@ static celspan_status read_opacity(cs_document *document, celspan_painting_key *
   return CELSPAN_OK;
 }
 
+/* The last key of the layer added last: of its opacity, or of its drawings. NULL: there is none. */
+static const celspan_painting_key *last_key(const celspan_painting *painting, bool is_opacity) {
+  for (size_t i = painting->key_count; i-- > 0;) {
+    const celspan_painting_key *key = &painting->keys[i].fields;
+    if (key->layer != cs_contents_last(painting))
+      return NULL;
+    if (key->is_opacity == is_opacity)
+      return key;
+  }
+  return NULL;
+}
+
 static celspan_status start_key(cs_document *document) {
-  const celspan_painting *painting = document->painting;
-  celspan_painting_key last = {.layer = CS_CONTENTS_NONE};
   bool is_opacity = document->channel == 'o';
+  const celspan_painting_key *last = last_key(document->painting, is_opacity);
+  int64_t before = last ? last->frame : INT64_MIN;
   cs_contents_key *key;
-  if (painting->key_count > 0)
-    last = painting->keys[painting->key_count - 1].fields;
   CS_TRY(cs_contents_add_key(document->context, document->input, document->painting, &key));
   CS_TRY(cs_document_whole(document, "time", &key->fields.frame));
   CS_TRY(cs_document_whole(document, "color-label", &key->fields.colour));
-  if (last.layer == key->fields.layer && last.is_opacity == is_opacity &&
-      last.frame >= key->fields.frame)
+  if (before >= key->fields.frame)
     return cs_document_fail(document, CELSPAN_INPUT, "the key of frame %d follows that of frame %d",
-                            (int)key->fields.frame, (int)last.frame);
+                            (int)key->fields.frame, (int)before);
   return is_opacity ? read_opacity(document, &key->fields)
                     : named_member(document, "frame", &key->member);
 }
@@ -236,6 +245,8 @@ static celspan_status start_in_keys(cs_document *document, const char *name) {
   if (!document->channel || painting->key_count == 0)
     return CELSPAN_OK;
   cs_contents_key *key = &painting->keys[painting->key_count - 1];
+  if (key->fields.layer != cs_contents_last(painting))
+    return CELSPAN_OK; /* the layer has no key yet */
   if (is(name, "offset")) {
     CS_TRY(cs_document_whole(document, "x", &key->x));
     return cs_document_whole(document, "y", &key->y);
@@ -262,18 +273,14 @@ static celspan_status add_drawing(cs_document *document, size_t place, size_t nu
                      cs_document_text(document, "filename"), drawing);
 }
 
-/* What is known of a member: the first key that shows it, from 1, and the place of its drawing. */
-typedef struct shown {
-  size_t key, drawing;
-} shown;
-
-/* Adds the drawings of the layer's keys from `first` on, the last one first; known: by member. */
-static celspan_status add_drawings(cs_document *document, size_t first, shown *known) {
+/* Adds the drawings of the layer's keys from `first` on, the last one first. */
+static celspan_status add_drawings(cs_document *document, size_t first) {
   celspan_painting *painting = document->painting;
+  cs_document_shown *known = document->shown;
   const cs_zip_member *members = document->zip->members;
   size_t number = 0;
   for (size_t i = first; i < painting->key_count; i++)
-    if (painting->keys[i].member && !known[painting->keys[i].member - members].key) {
+    if (painting->keys[i].member && known[painting->keys[i].member - members].key <= first) {
       known[painting->keys[i].member - members].key = i + 1;
       number++;
     }
@@ -306,18 +313,21 @@ static bool has_drawings(const celspan_painting *painting, size_t first) {
 
 /* The drawings of the open layer, whose keys begin at `first`, in place of its pixels. */
 static celspan_status make_drawings(cs_document *document, size_t first) {
-  cs_memory *memory = document->context->memory;
-  size_t count = document->zip->count;
-  shown *known = cs_mem_array(memory, count, sizeof *known);
   cs_contents_layer *layer = &document->painting->layers[document->group];
-  if (!known)
-    return cs_fail_memory(document->context);
-  memset(known, 0, count * sizeof *known);
+  if (!document->shown)
+    CS_TRY(CS_MAKE(document->context, document->shown, document->zip->count));
   layer->is_group = true;
   layer->x = layer->y = 0;
-  celspan_status status = add_drawings(document, first, known);
-  cs_mem_free(memory, known, count * sizeof *known);
-  return status;
+  return add_drawings(document, first);
+}
+
+/* Removes the keys of drawings from `first` on, of a layer that has no drawings. */
+static void drop_drawings(celspan_painting *painting, size_t first) {
+  size_t count = first;
+  for (size_t i = first; i < painting->key_count; i++)
+    if (!painting->keys[i].member)
+      painting->keys[count++] = painting->keys[i];
+  painting->key_count = count;
 }
 
 /* ---------------------------------------------------------------- elements */
@@ -325,7 +335,7 @@ static celspan_status make_drawings(cs_document *document, size_t first) {
 static celspan_status start_layer(cs_document *document) {
   const char *type = cs_document_text(document, "nodetype");
   cs_contents_layer *layer;
-  bool is_group = is(type, "grouplayer");
+  bool is_group = is(type, "grouplayer"), is_paint = !type || is(type, "paintlayer");
   /* it may have masks, so it is closed with its element */
   CS_TRY(cs_document_add(document, true, &layer));
   layer->is_group = is_group;
@@ -334,11 +344,13 @@ static celspan_status start_layer(cs_document *document) {
   size_t first = document->painting->key_count;
   if (cs_document_text(document, "keyframes"))
     CS_TRY(read_keys(document));
+  if (!is_paint)
+    drop_drawings(document->painting, first);
   if (is_group) {
     layer->x = layer->y = 0;
     return CELSPAN_OK;
   }
-  if (type && !is(type, "paintlayer"))
+  if (!is_paint)
     return CS_DOCUMENT_NOTE(document, "is a \"%.60s\": it is empty", type);
   return has_drawings(document->painting, first) ? make_drawings(document, first)
                                                  : read_pixels(document, layer);
