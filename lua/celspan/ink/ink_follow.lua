@@ -248,7 +248,8 @@ end
 ---@return { drawing: integer, name: string, at: number[] }[] unsure What must be looked at
 function ink.follow(drawings, seeds, options)
   local noun = "ink: follow"
-  local keys = keys_of(drawings, math.tointeger, "lines of one or more drawings by number")
+  local keys = keys_of(drawings, function(key) return math.type(key) == "integer" end,
+    "lines of one or more drawings by number")
   local names = keys_of(seeds, function(key) return type(key) == "string" end,
     "one or more seeds {x, y [, paint]} by name")
   for _, name in ipairs(names) do

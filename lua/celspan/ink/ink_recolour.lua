@@ -9,11 +9,17 @@ local known = { strict = "boolean", space = "string" }
 
 -- ---------------------------------------------------------------- colours
 
---- The light of a colour, three numbers. Its alpha stays in a drawing, so it must not have one.
-local function light_of(name, value)
+--- The colour that a value is; nil if it is no colour.
+local function colour_of(value)
   local read = type(value) == "userdata" and function() return value.pigment and value end
   local good, paint = pcall(read or celspan.rgb, value)
-  if not good or not paint then
+  return good and paint or nil
+end
+
+--- The light of a colour, three numbers. Its alpha stays in a drawing, so it must not have one.
+local function light_of(name, value)
+  local paint = colour_of(value)
+  if not paint then
     native.refuse(("ink: recolour: %s must be a colour, such as \"#f2c6a0\", got %s"):format(name,
       type(value) == "string" and ("%q"):format(value) or fields.kind(value)))
   end
@@ -97,23 +103,26 @@ local change
 --- The items of a list in the new colours, for :with.
 local function items_of(value, recolouring)
   local items = {}
-  for i = 1, #value do items[i] = change(value[i], recolouring) end
+  for i = 1, #value do items[i] = change(value[i], recolouring, {}) end
   return items
 end
 
---- A copy of a table of drawings, or what its class makes of it.
-local function change_table(value, recolouring)
+--- A copy of a table of drawings, or what its class makes of it. around: the tables it lies in.
+local function change_table(value, recolouring, around)
   local class = getmetatable(value)
   local own = class and rawget(class, "__recolour")
-  if own then return own(value, function(object) return change(object, recolouring) end) end
+  if own then return own(value, function(object) return change(object, recolouring, {}) end) end
   if class then return nil end
+  if around[value] then native.refuse "ink: recolour: a table contains itself" end
   local copy = {}
-  for key, item in next, value do copy[key] = change(item, recolouring) or item end
+  around[value] = true
+  for key, item in next, value do copy[key] = change(item, recolouring, around) or item end
+  around[value] = nil
   return copy
 end
 
-function change(value, recolouring)
-  if type(value) == "table" then return change_table(value, recolouring) end
+function change(value, recolouring, around)
+  if type(value) == "table" then return change_table(value, recolouring, around) end
   if type(value) ~= "userdata" then return nil end
   local made, kind = native.recolour(recolouring, value), fields.kind(value)
   if not made and (kind == "a cel" or kind == "a rostrum") then
@@ -122,10 +131,14 @@ function change(value, recolouring)
   return made
 end
 
---- Whether a third argument is options and no palette.
-local function is_options(value)
+--- Whether a third argument is options and no palette. An empty table is, after new colours by old
+--- ones.
+local function is_options(value, from)
   for name in next, value do
     if not known[name] then return false end
+  end
+  for key in next, from do
+    if next(value) == nil and not colour_of(key) then return false end
   end
   return true
 end
@@ -141,19 +154,19 @@ end
 ---@return { colour: string, count: integer, place: string, x?: integer, y?: integer }[]? strange With strict: at most 256 colours, each with its first place
 function ink.recolour(value, from, to, options)
   local is_map = type(from) == "table" and options == nil
-    and (to == nil or type(to) == "table" and is_options(to))
+    and (to == nil or type(to) == "table" and is_options(to, from))
   if is_map then
     to, options = nil, to
-  elseif type(from) ~= "table" then
+  elseif type(from) ~= "table" and from and to then
     from, to = { from }, { to }
   end
   fields.expect_kind(type(from) == "table" and (to == nil or type(to) == "table"), to,
-    "ink: recolour takes two palettes, or a table of new colours by old ones")
+    "ink: recolour takes two palettes, two colours, or a table of new colours by old ones")
   options = fields.check("ink: recolour", options or {}, known)
   fields.space("ink: recolour", options.space)
   local old, new = lists_of(pairs_of(from, to))
   local recolouring = native.recolouring(old, new, options.space == "linear", options.strict)
-  local made = change(value, recolouring)
+  local made = change(value, recolouring, {})
   fields.expect_kind(made ~= nil, value, "ink: recolour takes objects, cels, rostrums, pictures, "
     .. "trees of layers, and tables of these")
   return made, options.strict and native.strange(recolouring) or nil

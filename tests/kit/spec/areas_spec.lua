@@ -284,6 +284,8 @@ describe("followed areas", function()
       ["follow takes one or more seeds {x, y [, paint]} by name"] = of { { 250, 160 } },
       ["seeds.a must be {x, y [, paint]}"] = of { a = 5 },
       ["takes lines of one or more drawings by number"] = of(SEEDS, {}),
+      ["follow takes lines of one or more drawings by number"] = of(SEEDS, { box(100),
+        ["1"] = box(100) }),
       ["drawings[2]: lines must be an object, or a drawing with one"] = of(SEEDS,
         { box(100), false }),
       ["drawings[2]: "] = of(SEEDS, { box(100), celspan.rect { 0, 0, 9, 9,

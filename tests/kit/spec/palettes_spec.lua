@@ -355,6 +355,9 @@ describe("recolouring", function()
       ["only the second palette has 'b'"] = { { a = "#fff" }, { a = "#fff", b = "#000" } },
       ["'a' and 'b' are one colour, and become two"] = { { a = "#fff", b = "#ffffff" },
                                                          { a = "#000", b = "#111" } },
+      ["only the first palette has 'line'"] = { { line = "#fff" }, {} },
+      ["takes two palettes, two colours, or a table of new colours by old ones, got nil"] = {
+        "#fff" },
       ["there are no colours"] = { {} },
       ["'a' must be a colour, such as \"#f2c6a0\", got \"skin\""] = { { a = "skin" },
                                                                       { a = "#fff" } },
@@ -369,6 +372,10 @@ describe("recolouring", function()
       assert.matches(message, got, 1, true)
     end
     assert.error_matches(function() ink.recolour(7, day, night) end, "takes objects, cels")
+    local twice = { disc }
+    assert.equal(2, #ink.recolour({ twice, twice }, { ["#000"] = "#fff" }, {}))
+    twice[2] = { twice }
+    assert.error_matches(function() ink.recolour(twice, day, night) end, "a table contains itself")
     assert.error_matches(function() return ink.recoat end, "has no 'recoat'")
   end)
 end)
