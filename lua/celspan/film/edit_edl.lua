@@ -217,7 +217,8 @@ local function about(state, event)
   if event.kind == "D" then return { noun = "dissolve" } end
   if event.kind == "W119" then return { noun = "iris" } end
   if event.kind ~= "W001" and event.kind ~= "W002" then
-    skip(state, "%s: the wipe %s is one from left to right", event.place, event.kind)
+    skip(state, "%s: the wipe %s is not known: it is shown as one from left to right", event.place,
+      event.kind)
   end
   return { noun = "wipe", angle = event.kind == "W002" and 90 or 0 }
 end

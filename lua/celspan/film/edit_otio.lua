@@ -175,7 +175,8 @@ local function read_item(state, child, what)
     if schema == "Stack" or schema == "Track" then
       skip(state, "%s: what is nested in it is not read: it is black; flatten it", what)
     elseif schema ~= "Gap" then
-      skip(state, "%s: %s is not known, and black", what, schema or "what has no schema")
+      skip(state, "%s: %s is not known: it is shown as black", what,
+        schema or "an object without a schema")
     end
     return { count = count or 0 }
   end

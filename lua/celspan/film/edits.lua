@@ -176,7 +176,7 @@ local function transition_of(cut, edit, part, fps)
     return about.noun == "dissolve" and cut.dissolve(seconds, curve)
   end)
   if good and made then return made end
-  skip(edit, "%s: '%s' is not known, and a dissolve", part.place, fields.key(about.noun))
+  skip(edit, "%s: '%s' is not known: it is shown as a dissolve", part.place, fields.key(about.noun))
   return cut.dissolve(seconds)
 end
 
@@ -215,7 +215,8 @@ local function cut_marks(edit, count)
       local last = mark.to > mark.from and math.min(mark.to, count)
       marks[mark.name] = last and { mark.from + 1, last } or mark.from + 1
     else
-      skip(edit, "the mark '%s' is outside the film, there already, or no name", mark.name)
+      skip(edit, "the mark '%s' is left out: it lies outside the film, another one has its name, "
+        .. "or its name is not allowed", mark.name)
     end
   end
   return marks

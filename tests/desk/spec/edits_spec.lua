@@ -235,6 +235,7 @@ describe("an EDL", function()
       "* FROM CLIP NAME: hall", "* TO CLIP NAME: nell",
       "003  BL       V     C        00:00:00:00 00:00:00:12 01:00:02:00 01:00:02:12",
       "004  BL       V     C        00:00:00:12 00:00:00:12 01:00:02:12 01:00:02:12",
+      "* LOC: 01:00:00:00 GREEN   door", "* LOC: 01:00:00:00 GREEN   door",
       "004  chase    V     W017 006 00:00:00:00 00:00:01:00 01:00:02:12 01:00:03:12",
       "005  hall     V     C        00:00:00:00 00:00:01:00 01:00:04:00 01:00:05:00"),
       films_at(24))
@@ -242,7 +243,9 @@ describe("an EDL", function()
     assert.are.equal(4, #shots)
     assert.are.same({ from = 0, to = 36 / 24 }, shots[1].source)
     assert.are.equal(1, shots[2].from)
-    assert.are.same({ "line 9: event 004: the wipe W017 is one from left to right" }, shots.skipped)
+    assert.are.same({ "line 11: event 004: the wipe W017 is not known: it is shown as one from "
+      .. "left to right", "the mark 'door' is left out: it lies outside the film, another one has "
+      .. "its name, or its name is not allowed" }, shots.skipped)
     local list = frames(film)
     assert.are.equal(list[50], list[90])
     assert.are_not.equal(list[50], list[40])
@@ -393,9 +396,9 @@ describe("OpenTimelineIO", function()
     assert.are.equal("table", type(shots), shots)
     assert.are.equal(25, film.frames)
     assert.are.same({ 'track 1, item 1 "hall": the effect Blur is not known',
-      "track 1, item 2: what has no schema is not known, and black",
-      'track 1, item 3 "x": Odd is not known, and black',
-      "track 1, item 4: 'Melt' is not known, and a dissolve" }, shots.skipped)
+      "track 1, item 2: an object without a schema is not known: it is shown as black",
+      'track 1, item 3 "x": Odd is not known: it is shown as black',
+      "track 1, item 4: 'Melt' is not known: it is shown as a dissolve" }, shots.skipped)
   end)
 
   it("may have nested and further tracks, which are said not to be read", function()
