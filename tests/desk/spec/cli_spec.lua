@@ -291,6 +291,7 @@ complete_words celspan render film.lua --format a
       usage_error("render x.lua -o y.png --nothing-like-it 1", "celspan help render")
       usage_error("xyzzyxyzzy x.lua", "unknown verb 'xyzzyxyzzy' ('celspan help' lists them)")
       usage_error("render x.lua -o y.png --" .. ("long"):rep(100), "unknown option '--longlong")
+      usage_error("info x.lua '--parameters --json'", "unknown option '--parameters --json'")
       usage_error("check x.lua --word=Hi", "a parameter of the script is given by --set word=Hi")
     end)
 

@@ -10,6 +10,8 @@ enum { NAME_SIZE = 32, NAMES_MOST = 64 };
 /* ---------------------------------------------------------------- options */
 
 static bool has_option(const cs_verb *verb, const char *name) {
+  if (strchr(name, ' '))
+    return false;
   const size_t size = strlen(name);
   for (const char *at = verb->options; (at = strstr(at, name)); at += size)
     if ((at == verb->options || at[-1] == ' ') && at[size] == ' ')
