@@ -411,6 +411,18 @@ return film { size = { 20, 20 }, frames = 4, background = "#9bd1ff",
     assert.matches("frame 1: #ff0000 is in no palette of the film: %(film.lua:5%), pixel 9,", said)
     assert.matches("warning: frames 3%-4: #f2c6a1 is in no palette of the film: 'hat'", said)
     assert.matches("no faults, 2 warnings", said)
+    bench:write("film.lua", [[
+return film { frames = 9, palettes = { { skin = "#f2c6a0" } }, frame = function(f)
+  local strange = f.index % 2 == 1 and { circle { 5, 5, 4, fill = "#f2c6a1" } } or {}
+  for i = 1, 30 do
+    strange[i + 1] = circle { 5, 5, 4, fill = ("#%06x"):format(30 * f.index + i - 1) }
+  end
+  return strange
+end }]])
+    _, _, said = run "check film.lua"
+    assert.matches("frames 2%-8: #f2c6a1 is in no palette of the film, in 4 of these frames: %(",
+      said)
+    assert.matches("no faults, 256 warnings", said)
     bench:write("film.lua", "return film { palettes = { 7 }, frame = function() end }")
     _, _, said = run "check film.lua"
     assert.matches("film.lua:1: film: palettes%[1%] must be a table of colours by name, got number",

@@ -288,7 +288,7 @@ local function warnings_of(survey)
     request.script)) do
     list[i] = { message = sentence }
   end
-  for _, seen in ipairs { survey:warnings(), survey.strange.list } do
+  for _, seen in ipairs { survey:warnings(), survey.strange.warnings() } do
     table.move(seen, 1, #seen, #list + 1, list)
   end
   return list
