@@ -280,6 +280,13 @@ local function carried(way, k, s)
   end
 end
 
+--- An order in which only equal cuts are alike: table.sort takes long lists apart by the clock.
+local function is_before(m, n)
+  local one, other = m[1] + m[2], n[1] + n[2]
+  if one ~= other then return one < other end
+  return m[1] < n[1] or m[1] == n[1] and m[2] < n[2]
+end
+
 --- The places at which both contours are cut: the joints of both, ascending.
 local function cuts_of(way, p, q)
   local first, last, list, cuts = way[1], way[#way], {}, {}
@@ -296,7 +303,7 @@ local function cuts_of(way, p, q)
     end
   end
   for i = 2, #way - 1 do list[#list + 1] = way[i] end
-  table.sort(list, function(m, n) return m[1] + m[2] < n[1] + n[2] end)
+  table.sort(list, is_before)
   cuts[1] = first
   for _, cut in ipairs(list) do
     local before = cuts[#cuts]

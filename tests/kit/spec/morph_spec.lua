@@ -1,6 +1,8 @@
 -- Objects between two others: their ends, what keeps its place, parts, and what is refused.
 local celspan = require "celspan"
 local raised = require "tests.support.raised"
+local own = require "tests.support.own"
+local native, outlines = own "celspan.native", own "celspan.outlines"
 
 local function pixels(object)
   return assert(celspan.pixels(celspan.rostrum { celspan.cel { object } },
@@ -49,6 +51,23 @@ describe("a morph", function()
       for _, u in ipairs { 1, 7 } do assert.equal(0, difference(celspan.morph(a, b, u), b)) end
       assert.is_true(difference(celspan.morph(a, b, 1e-7), a) < FLAT)
       assert.is_true(difference(celspan.morph(a, b, 1 - 1e-7), b) < FLAT)
+    end
+  end)
+
+  -- table.sort takes long lists apart by the clock, so what is alike would change its place.
+  it("sorts the places at which outlines are cut without leaving two alike", function()
+    local sort, orders = table.sort, {}
+    rawset(table, "sort", function(list, before)
+      orders[#orders + 1] = before
+      sort(list, before)
+    end)
+    local lines = native.anatomy(line).contours
+    outlines.match(lines, lines, { places = {} })
+    rawset(table, "sort", sort)
+    local before = orders[#orders]
+    for _, pair in ipairs { { { 0.25, 0.5 }, { 0.5, 0.25 } }, { { 1, 1 }, { 1, 1 + 2 ^ -52 } } } do
+      assert.is_true(before(pair[1], pair[2]))
+      assert.is_false(before(pair[2], pair[1]))
     end
   end)
 
