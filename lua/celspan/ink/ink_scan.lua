@@ -82,7 +82,8 @@ local function inks_of(given)
     local p = paint.pigment
     light[name], names[#names + 1] = 0.2126 * p[1] + 0.7152 * p[2] + 0.0722 * p[3], name
   end
-  must(#names >= 1 and #names <= MOST_INKS, "the number of inks", "1 to " .. MOST_INKS, #names)
+  must(#names >= 1 and #names <= MOST_INKS, "ink", ("1 to %d colours by name"):format(MOST_INKS),
+    #names)
   table.sort(names, function(a, b)
     return light[a] < light[b] or light[a] == light[b] and a < b
   end)
@@ -92,8 +93,12 @@ end
 local function levels_of(levels)
   if levels == nil or levels == "auto" then return {} end
   fields.numbers("ink: scan", "levels[%d]", levels, 2, '{black, white} or "auto"')
-  must(#levels == 2 and levels[1] >= 0 and levels[2] <= 1 and levels[1] < levels[2], "levels",
-    "black and white, 0 <= black < white <= 1", levels[1])
+  local black, white = levels[1], levels[2]
+  if #levels ~= 2 or black < 0 or white > 1 or black >= white then
+    native.refuse("ink: scan: levels must be black and white, 0 <= black < white <= 1, got "
+      .. (#levels == 2 and fields.shown(black) .. " and " .. fields.shown(white)
+        or #levels .. " values"))
+  end
   return levels
 end
 
@@ -263,6 +268,7 @@ function ink.drawing(job, number)
   local place, message = lay(job, page)
   local drawing
   if place then drawing, message = drawing_of(job, page, place) end
+  if page ~= job.onto then native.scan_close(page.page) end
   if drawing then return drawing end
   return nil, page.file .. ": " .. message
 end
@@ -279,8 +285,10 @@ function ink.scan(pattern, options)
   local drawings = {}
   for _, number in ipairs(job.numbers) do
     drawings[number], message = ink.drawing(job, number)
-    if not drawings[number] then return nil, message end
+    if not drawings[number] then break end
   end
+  if job.onto then native.scan_close(job.onto.page) end
+  if message then return nil, message end
   return drawings
 end
 

@@ -173,14 +173,29 @@ describe("cleaning", function()
   it("refuses impossible options at the caller's line", function()
     for message, options in pairs {
       ["pegs must be"] = { pegs = "oxberry" }, ["number of pegs must be 2"] = { pegs = { {} } },
-      ["dpi must be from 30"] = { dpi = 3 }, ["levels must be black"] = { levels = { 0.9, 0.2 } },
+      ["dpi must be from 30"] = { dpi = 3 },
+      ["levels must be black and white, 0 <= black < white <= 1, got 0.1 and 1.2"] = {
+        levels = { 0.1, 1.2 } }, ["got 3 values"] = { levels = { 0.1, 0.8, 0.9 } },
       ["dust must be a whole"] = { dust = -1 }, ["ink.red must be"] = { ink = { red = "crimsn" } },
-      ["number of inks"] = { ink = {} },
+      ["ink must be 1 to 8 colours by name, got 0"] = { ink = {} },
       ["match goes without pegs"] = { match = true, pegs = "acme" },
       ["unknown field 'dip'"] = { dip = 300 },
     } do
       assert.matches(message, raised.message(scanned, "x.#.png", options), 1, true)
     end
+  end)
+end)
+
+describe("a level", function()
+  it("frees each page before it reads the next one", function()
+    write("many.1.png")
+    bench:write("many.lua", [[
+local level = require "celspan.ink"
+for _ = 1, 14 do assert(level.scan("many.#.png", { match = true, dpi = 75 })) end
+return film { size = { 9, 9 }, frame = function() return {} end }
+]])
+    local code, _, text = bench:celspan_inside("render many.lua --hash --limit memory=40M")
+    assert.equal(0, code, text)
   end)
 end)
 
@@ -198,6 +213,34 @@ describe("celspan scan", function()
     end
   end)
 
+  it("puts the name of an ink before the number", function()
+    write("named.1.png")
+    for output, name in pairs { ["named/##.png"] = "named/red.01.png",
+      ["named/level_#.png"] = "named/level_red.1.png",
+      ["named/level.%%02d.png"] = "named/level.red.01.png" } do
+      local code, _, text = bench:celspan_inside("scan 'named.#.png' -o '" .. output
+        .. "' --dpi 75 --ink 'black=#222,red=#c33'")
+      assert.equal(0, code, text)
+      assert.is_truthy(bench:read(name), name)
+    end
+  end)
+
+  it("does not write over the scans that it reads", function()
+    write("over.1.png")
+    write("over.red.1.png")
+    local before = bench:read "over.1.png"
+    for options, name in pairs {
+      ["'over.#.png' -o 'over.#.png'"] = "over.1.png",
+      ["'./over.#.png' -o \"$PWD/over.#.png\""] = "over.1.png",
+      ["'over.red.#.png' -o 'over.#.png' --ink 'red=#c33'"] = "over.red.1.png",
+    } do
+      local code, _, text = bench:celspan_inside("scan " .. options .. " --dpi 75")
+      assert.equal(2, code)
+      assert.matches(name .. "' is a scan that is read; choose another folder", text, 1, true)
+    end
+    assert.equal(before, bench:read "over.1.png")
+  end)
+
   it("refuses wrong options, and names the scan that fails", function()
     write("bad.1.png", { missing = { true, true, true } })
     for options, message in pairs {
@@ -206,6 +249,9 @@ describe("celspan scan", function()
       ["-o a.#.png --levels 1"] = "--levels", ["-o a.#.png --ink red"] = "--ink",
       ["-o a.#.png --dpi 3"] = "--dpi", ["-o a.#.png --pegs acme --match"] = "--match goes",
       ["-o a.#.png --dpi 75"] = "bad.1.png: none of the 3 peg holes",
+      ["-o a.#.png --dpi 75 --contact foo.xyz"] = "foo.xyz",
+      ["-o a.#.png --ink a=red,b=red,c=red,d=red,e=red,f=red,g=red,h=red,i=red"] =
+        "--ink must be 1 to 8 colours by name, got 9",
     } do
       local code, _, text = bench:celspan_inside("scan 'bad.#.png' " .. options)
       assert.is_true(code > 0)

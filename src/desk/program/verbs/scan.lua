@@ -1,7 +1,7 @@
 --- celspan scan PATTERN -o OUT: scanned drawings, registered by their peg holes, and cleaned.
 --
 --   OUT          level.0007.png        all inks of drawing 7
---   with inks    level.red.0007.png    each ink alone
+--   with inks    level.red.0007.png    each ink alone: its name and a dot precede the number
 --   --contact    a panel for each drawing: its lines, the page, and where its scan lies on it
 local program, request = ...
 local celspan = require "celspan"
@@ -48,11 +48,35 @@ local function write(drawing, object, pattern, number)
     celspan.cel { object } }, program.check(native.frame_name(pattern, number)))
 end
 
+--- The files of an ink alone.
+local function pattern_of(ink)
+  local tail = output:match "#+[^#/]*$" or output:match "%%%d*d[^/]*$"
+  return output:sub(1, -#tail - 1) .. ink .. "." .. tail
+end
+
+--- Refuses to write over the scans that are read.
+local function refuse_scans(job)
+  local scans, patterns = {}, { output }
+  for i, ink in ipairs(job.names) do patterns[i + 1] = pattern_of(ink) end
+  local function path_of(pattern, number)
+    return program.resolve(program.check(native.frame_name(pattern, number)))
+  end
+  for _, number in ipairs(job.numbers) do scans[path_of(job.pattern, number) or ""] = true end
+  for _, number in ipairs(job.numbers) do
+    for _, pattern in ipairs(patterns) do
+      if scans[path_of(pattern, number)] then
+        program.usage("-o: '%s' is a scan that is read; choose another folder",
+          native.frame_name(pattern, number))
+      end
+    end
+  end
+end
+
 local function write_all(drawing, number)
   write(drawing, drawing.object, output, number)
   for name, texture in pairs(drawing.colours) do
     write(drawing, celspan.rect { 0, 0, drawing.width, drawing.height, texture = texture },
-      (output:gsub("%.?#+[^/]*$", "." .. name .. "%0", 1)), number)
+      pattern_of(name), number)
   end
 end
 
@@ -94,7 +118,9 @@ if not program.has_number(output) then
   program.usage("-o: '%s' needs a number, as in clean/level.####.png", output)
 end
 program.refuse_target(output)
+if request.contact then program.refuse_target(request.contact) end
 local job = open()
+refuse_scans(job)
 local facts, sheet, height = {}, {}, 0
 program.count_frames(#job.numbers)
 for i, number in ipairs(job.numbers) do

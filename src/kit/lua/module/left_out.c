@@ -40,6 +40,7 @@ LACKS_RECOLOURING(cs_recolour_strange)
 
 #define LACKS_SCANS(name) LACKS(name, "scans")
 LACKS_SCANS(cs_scanning_open)
+LACKS_SCANS(cs_scanning_close)
 LACKS_SCANS(cs_scanning_pegs)
 LACKS_SCANS(cs_scanning_corners)
 LACKS_SCANS(cs_scanning_shift)

@@ -112,6 +112,8 @@ int cs_tracing_write(lua_State *L);
 /* (file) -> a scanned page, its width and height, the dpi that the file says, or 0 | nil,
  * message */
 int cs_scanning_open(lua_State *L);
+/* (page): frees its memory, of which Lua's collector sees nothing */
+int cs_scanning_close(lua_State *L);
 /* (page, dpi, {{x, y, width, height}, ...}) -> how many holes were found, and if all: their scale,
  * turn in radians, x and y of their origin in pixels, the greatest error in millimetres */
 int cs_scanning_pegs(lua_State *L);

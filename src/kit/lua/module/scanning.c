@@ -61,6 +61,11 @@ int cs_scanning_open(lua_State *L) {
   return 4;
 }
 
+int cs_scanning_close(lua_State *L) {
+  page_at(L, 1);
+  return release_page(L);
+}
+
 int cs_scanning_pegs(lua_State *L) {
   cs_rough *page = page_at(L, 1);
   double dpi = luaL_checknumber(L, 2);
