@@ -35,9 +35,16 @@ local function render(object, scale)
   return chart
 end
 
---- The areas where openings up to a gap, in units, are closed.
+--- Frees the areas, which are large, but small to Lua's collector.
+function Chart:close()
+  if self.areas then native.areas_close(self.areas) end
+  self.areas, self.gap = nil, nil
+end
+
+--- The areas where openings up to a gap, in units, are closed. They live until it is called again.
 function Chart:divide(noun, gap)
   if self.gap ~= gap then
+    self:close()
     local areas, thin = native.areas(self.bytes, self.width, self.height, gap * self.scale)
     if not areas then native.refuse(noun .. ": " .. thin) end
     self.gap, self.areas, self.thin = gap, areas, thin
@@ -63,6 +70,7 @@ local function chart_of(noun, object, scale, gap)
   local pixels = scale or LEAST / side
   local chart, message
   repeat
+    if chart then chart:close() end
     chart, message = render(object, pixels)
     if not chart then native.refuse(noun .. ": " .. message) end
     chart:divide(noun, gap)
@@ -97,7 +105,10 @@ function charts.search(noun, lines, options)
 end
 
 --- Lets go of the chart, which is large.
-function Search:finish() kept[self.object] = nil end
+function Search:finish()
+  if self.chart then self.chart:close() end
+  kept[self.object] = nil
+end
 
 --- The number of the area at a point; nil and why there is none. gap: another one.
 function Search:find(at, gap)
@@ -138,7 +149,7 @@ function Search:opening(from, to, holds)
   end
   if not u then native.refuse(self.noun .. ": " .. v) end
   local leak = { at = { chart:place(u, v) }, width = width / chart.scale }
-  leak.gap = self:wider(leak.width, holds)
+  leak.gap = leak.width < math.huge and self:wider(leak.width, holds) or nil
   leak.text = ("through an opening of %s at %s; %s"):format(tenth(leak.width), place_text(leak.at),
     leak.gap and ("gap = %s would close it"):format(tenth(leak.gap))
       or "no gap near that closes it: draw a line there")
@@ -166,6 +177,12 @@ end
 
 --- Raises an error about two points that must not be in one area.
 function Search:refuse_both(one, name, other, other_name)
+  local x, y = self.chart:pixel(one)
+  local u, v = self.chart:pixel(other)
+  if x // 1 == u // 1 and y // 1 == v // 1 then
+    native.refuse(("%s: %s and %s are at one place: leave one of them out"):format(self.noun, name,
+      other_name))
+  end
   local leak = self:opening(one, other, function(more)
     local first, second = self:find(one, more), self:find(other, more)
     return first and second and first ~= second

@@ -6,6 +6,7 @@ local autoclose = require "tests.support.autoclose"
 local figures = require "tests.support.figures"
 local inked = require "tests.support.inked"
 local raises = require "tests.support.raised"
+local workbench = require "tests.support.workbench"
 local raised = raises.message
 
 local W, H = inked.width, inked.height
@@ -142,6 +143,32 @@ describe("the area around a point", function()
     assert.truthy(text:find(("gap = %g would close it"):format(leak.gap), 1, true))
   end)
 
+  it("says so of wide openings, too", function()
+    local line = celspan.stroke { width = 8, d = "M20 20H1880V1060H20V300" }
+    local leak = ink.leak { line, at = { 100, 90 }, scale = 0.3 }
+    assert.near(276, leak.width, 8)
+    assert.truthy(leak.gap >= 268 and leak.gap <= 290)
+  end)
+
+  it("is outside where lines cover less than half of their pixels", function()
+    local leak = ink.leak { square():fade(0.4), at = { 150, 150 }, scale = 0.5 }
+    assert.equal("the point (150, 150) is outside: no lines go around it", leak.message)
+    assert.equal(nil, leak.width)
+  end)
+
+  it("needs the memory of one gap at a time", function()
+    local bench = workbench.new()
+    bench:write("gaps.lua", [[
+local ink = require "celspan.ink"
+local line = stroke { width = 4, d = "M100 100H200V200H100Z" }
+for gap = 0, 11 do assert(not ink.leak { line, at = { 150, 150 }, gap = gap, scale = 10 }) end
+return film { size = { 9, 9 }, frame = function() return line end }
+]])
+    local code, _, text = bench:celspan_inside("render gaps.lua --hash --limit memory=48M")
+    bench:remove()
+    assert.equal(0, code, text)
+  end)
+
   it("is refused on lines and outside, or what is given instead is shown", function()
     assert.truthy(raised(ink.area, { square(), at = { 100, 150 } })
       :find "%(100, 150%) lies on a line")
@@ -184,6 +211,12 @@ describe("many areas", function()
     assert.truthy(text:find "gap = 3%d would close it")
     assert.truthy(ink.areas { wall, gap = 32, colours = { { 120, 150, "red" },
       { 180, 150, "blue" } } }:contains(180, 150))
+  end)
+
+  it("are refused where two points are one", function()
+    assert.truthy(raised(ink.areas, { square(), gap = 12, colours = { { 150, 150, "#f00" },
+      { 150, 150, "#00f" } } })
+      :find("colours[1] and colours[2] are at one place: leave one of them out", 1, true))
   end)
 
   it("may be ten thousand", function()

@@ -45,6 +45,11 @@ int cs_ink_areas_make(lua_State *L) {
   return 2;
 }
 
+int cs_ink_areas_release(lua_State *L) {
+  areas_at(L);
+  return release(L);
+}
+
 int cs_ink_areas_at(lua_State *L) {
   const cs_ink_areas *areas = areas_at(L);
   const uint32_t place = place_at(L, areas, 2);

@@ -48,6 +48,7 @@ LACKS_SCANS(cs_scanning_lines)
 
 #define LACKS_AREAS(name) LACKS(name, "areas between lines")
 LACKS_AREAS(cs_ink_areas_make)
+LACKS_AREAS(cs_ink_areas_release)
 LACKS_AREAS(cs_ink_areas_at)
 LACKS_AREAS(cs_ink_areas_way)
 LACKS_AREAS(cs_ink_areas_measures)

@@ -131,6 +131,8 @@ int cs_scanning_lines(lua_State *L);
 /* (RGBA whose alpha is the coverage, width, height, gap in pixels) -> areas, the share of the lines
  * that is thin | nil, message */
 int cs_ink_areas_make(lua_State *L);
+/* (areas): frees their memory, of which Lua's collector sees nothing */
+int cs_ink_areas_release(lua_State *L);
 /* (areas, x, y) -> the label of the nearest area, 0 for the outside; whether a line is there */
 int cs_ink_areas_at(lua_State *L);
 /* (areas, x, y [, x, y]) -> x, y, width of the narrowest place on the widest way to the other

@@ -53,7 +53,7 @@ void cs_ink_areas_measure(const cs_ink_areas *areas, double (*out)[CS_AREA_NUMBE
 
 typedef struct cs_ink_leak {
   int32_t x, y;
-  double width; /* pixels */
+  double width; /* pixels; HUGE_VAL: there is no ink on the way */
 } cs_ink_leak;
 
 /* The narrowest place on the widest way from one pixel to another of the same area, or from a pixel

@@ -62,7 +62,7 @@ static uint32_t farthest(const search *s, uint32_t from) {
     for (int64_t u = x > far ? x - far : 0; u <= x + far && u < width; u++) {
       const uint32_t at = (uint32_t)(v * width + u);
       if ((u - x) * (u - x) + (v - y) * (v - y) < squared && is_inside(s, at) &&
-          s->squared[at] > s->squared[best])
+          s->squared[at] != UINT32_MAX && s->squared[at] > s->squared[best])
         best = at;
     }
   return best;
@@ -114,10 +114,10 @@ static void run(search *s, uint32_t from, uint32_t to, cs_ink_leak *out) {
   }
   sort_steps(s->steps, count);
   for (size_t i = 0; i < count; i++) {
-    const uint32_t at = s->steps[i].place;
+    const uint32_t at = s->steps[i].place, squared = s->steps[i].squared;
     add(s, at);
     *out = (cs_ink_leak){(int32_t)(at % width), (int32_t)(at / width),
-                         2 * sqrt((double)s->steps[i].squared) - 1};
+                         squared == UINT32_MAX ? HUGE_VAL : 2 * sqrt((double)squared) - 1};
     if (s->parents[from] != NEVER && s->parents[to] != NEVER &&
         root_of(s->parents, from) == root_of(s->parents, to))
       return;
