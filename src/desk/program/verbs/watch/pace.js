@@ -19,8 +19,8 @@ const JUDGED = 12, JUDGED_SLOW = 3, SECONDS = 0.5;
 // chosen that is expected to stay below EASY. Between the two nothing changes.
 const OVERDUE = 1.1, EASY = 0.8;
 const HELPS = 0.8;     // a size that takes more of the time of a larger one is no help
-// judgements after which smaller sizes that were no help are tried again, twice as many each time:
-// the computer may have been busy
+// judgements until sizes that were no help are tried again, twice as many each time: the computer
+// may have been busy
 const RETRIED = 6;
 const DRAWN_MOST = 60; // frames that a screen shows in a second
 
@@ -32,9 +32,9 @@ export const judge = (pace, coarse = pace.coarse, smallest = SMALLEST) => Object
 
 /** Means in seconds: latency, between the request of a frame and its arrival; interval, between
  * two arrivals while pictures are awaited. last: the newest arrival. left: judgements until sizes
- * that were no help are tried again; patience: how many there will be the next time. */
+ * that were no help are tried again; rest: how many there will be the next time. */
 export const newPace = () =>
-  judge({ latency: 0.05, interval: 0.02, last: 0, left: 0, patience: RETRIED }, 1);
+  judge({ latency: 0.05, interval: 0.02, last: 0, left: 0, rest: RETRIED }, 1);
 
 const mean = (old, value) => old + WEIGHT * (value - old);
 
@@ -56,9 +56,8 @@ export function chooseSize(pace, rate) {
   const { coarse: old, before } = pace, seconds = pace.busy / pace.count;
   const share = seconds * Math.min(rate, DRAWN_MOST), isLate = share > OVERDUE;
   const isVain = isLate && seconds > HELPS * before.seconds;
-  const isKnown = isLate && --pace.left > 0; // that smaller ones are no help
-  if (isVain) pace.left = (pace.patience *= 2) / 2;
-  const smallest = isVain ? before.coarse : isKnown ? pace.smallest : SMALLEST;
+  if (isVain) pace.left = (pace.rest *= 2) / 2;
+  const smallest = isVain ? before.coarse : isLate && --pace.left > 0 ? pace.smallest : SMALLEST;
   const fitting = [...SIZES.keys()]
     .find(one => one >= smallest || share * (old / one) ** 2 < EASY);
   judge(pace, isLate ? fitting : Math.min(fitting, old), smallest);
