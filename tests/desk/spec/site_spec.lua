@@ -286,12 +286,16 @@ describe("a page of the site #plain", function()
       end)
     end
 
-    -- Without the words of code, which take long, and have the same few colours everywhere.
-    it("on any address has no fault that axe-core finds #full", function()
-      local found = {}
-      for address in pairs(pages) do
-        for _, fault in ipairs(faults_of(address, '{ exclude: "pre span" }')) do
-          found[#found + 1] = address .. ": " .. fault
+    -- One address in eight; all with ./run test --all. Without the words of code, which take long,
+    -- and have the same few colours everywhere.
+    it("on other addresses has no fault that axe-core finds #full", function()
+      local addresses, found = {}, {}
+      for address in pairs(pages) do addresses[#addresses + 1] = address end
+      table.sort(addresses)
+      local is_all = (tonumber(os.getenv "CELSPAN_SCENES") or 0) >= 300
+      for i = 1, #addresses, is_all and 1 or 8 do
+        for _, fault in ipairs(faults_of(addresses[i], '{ exclude: "pre span" }')) do
+          found[#found + 1] = addresses[i] .. ": " .. fault
         end
       end
       assert.same({}, found)
