@@ -11,6 +11,8 @@
 --- what the module says of it; and a method with a line
 ---
 ---   ---@own celspan.placed                 returns its own type, of this class
+---
+--- One file, because it is one text, in the order in which editors show it.
 return [==[
 ---@meta celspan
 --- Annotations of celspan for editors with the Lua language server. Film coordinates start at the

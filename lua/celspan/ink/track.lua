@@ -116,7 +116,7 @@ end
 
 local known = { from = "number", at = "any", frames = "string", model = "string" }
 
---- The number of a model; nil: there is none of this name.
+--- The number of a model; nil if no model has this name.
 local function model_number(name)
   for i, model in ipairs(models) do
     if model == name then return i - 1 end

@@ -259,8 +259,8 @@ static cover cover_of(const cs_rough *page, const celspan_rectangle *box, double
   return c;
 }
 
-/* The middle of hole h, which the page keeps with some rim, in pixels. Returns whether it covers
- * what it should, and is told from the grain around it. */
+/* The middle of hole h in pixels; the page keeps the hole with some rim. Returns whether the hole
+ * has the area that it should have, and is clearly brighter or darker than the grain around it. */
 static bool measure(const search *s, const laying *l, size_t h, celspan_point *out) {
   const cs_hole *hole = &s->holes[h];
   const cs_region *blot = &s->blots[l->of_hole[h]];
