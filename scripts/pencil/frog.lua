@@ -1,6 +1,6 @@
--- The frog prince of pencil.lua, as lines of a pencil: a table of points for each line, in
--- pixels of
--- a clean scan. Black is the body, red what lies behind it, and blue helps to construct.
+-- The frog prince of pencil.lua, as lines of a pencil: a table of points for each line, in pixels
+-- of a clean scan. Black is what is painted, and blue helps to construct. eyes.lua has pupils and
+-- lids.
 local frog = {}
 
 --- Points on the way through some places, as of a hand that slows down at none of them.
@@ -42,53 +42,59 @@ end
 local half = { { 0.5, -0.01 }, { 0.86, 0.05 }, { 1.02, 0.27 }, { 0.98, 0.5 } }
 local around_eye, EYE, BULGE = { 0.05, 0.8, 1.57, 2.3, 2.95 }, { 0.56, 0.86 }, 31
 
+--- The lines of an eye: a ring; or the arc of a smile, or two lines that meet, if it is shut.
+local function eye(kind, x, y, r, side)
+  if kind == "happy" then
+    return through { { x - 17, y + 4 }, { x - 9, y - 5 }, { x + 1, y - 8 }, { x + 11, y - 5 },
+      { x + 18, y + 4 } }
+  elseif kind == "tight" then
+    return { { x + 15 * side, y - 13 }, { x + 2 * side, y - 6 }, { x - 13 * side, y + 1 },
+      { x + 2 * side, y + 7 }, { x + 15 * side, y + 13 } }
+  end
+  return ring(x, y, r * 0.9, r)
+end
+
 --- The lines of a pose: x, y between its feet, width, height, lean (how far its top is to the
---- right), eyes ("up", "half", "shut" or "wide"), gaze, mouth, and by side the ends of its legs and
---- arms, relative to x, y.
+--- right), bulge (how much wider it is below than above), cheeks, eyes ("open", "happy", "tight"),
+--- the size of an eye, mouth, how high its belly is, and its limbs, relative to x, y.
 function frog.body(pose)
   local list = {}
   local function place(u, v)
-    local bulge = pose.bulge or 0
-    local wide = 1 + bulge * (0.4 - v)
+    local wide = 1 + (pose.bulge or 0) * (0.4 - v)
     return { pose.x + u * pose.width / 2 * wide + pose.lean * v * v, pose.y - v * pose.height }
   end
   local function add(pencil, points) list[#list + 1] = { pencil = pencil, points = points } end
 
-  local places, size = {}, pose.eye or 1
+  local places, size, cheeks = {}, pose.eye or 1, pose.cheeks or 0
   local function around(side, angle)
     local x, y = table.unpack(place(EYE[1] * side, EYE[2]))
     places[#places + 1] = { x + side * BULGE * size * math.cos(angle),
       y - BULGE * size * math.sin(angle) }
   end
-  for i = 1, #half do places[i] = place(half[i][1], half[i][2]) end
+  local function flank(side, i)
+    local u, v = table.unpack(half[i])
+    places[#places + 1] = place(side * (u + (i == #half and cheeks or 0)), v)
+  end
+  for i = 1, #half do flank(1, i) end
   for i = 1, #around_eye do around(1, around_eye[i]) end
   places[#places + 1] = place(0.1, 0.82)
   places[#places + 1] = place(-0.1, 0.82)
   for i = #around_eye, 1, -1 do around(-1, around_eye[i]) end
-  for i = #half, 1, -1 do places[#places + 1] = place(-half[i][1], half[i][2]) end
+  for i = #half, 1, -1 do flank(-1, i) end
   add("black", through(places, true))
 
   for _, side in ipairs { -1, 1 } do
-    local eye = place(EYE[1] * side, EYE[2])
-    local r = size * 24
-    local look = pose.gaze
-    if pose.eyes == "shut" then
-      add("black", through { { eye[1] - 17, eye[2] + 4 }, { eye[1] - 9, eye[2] - 5 },
-        { eye[1] + 1, eye[2] - 8 }, { eye[1] + 11, eye[2] - 5 }, { eye[1] + 18, eye[2] + 4 } })
-    else
-      local flat = pose.eyes == "half" and 0.62 or 1
-      add("black", ring(eye[1], eye[2] + r * (1 - flat), r * 0.9, r * flat))
-      add("black", ring(eye[1] + look[1], eye[2] + r * (1 - flat) + look[2] * flat, r * 0.46,
-        r * 0.54 * flat))
-    end
+    local at = place(EYE[1] * side, EYE[2])
+    add("black", eye(pose.eyes, at[1], at[2], size * 24, side))
   end
 
   local mouth = {}
   for i, m in ipairs(pose.mouth) do mouth[i] = place(m[1], m[2]) end
   add("black", through(mouth, pose.mouth.closed))
   -- The belly ends short of the outline: paint must not run out through these gaps.
-  add("black", through { place(-0.6, 0.045), place(-0.56, 0.2), place(-0.3, 0.34), place(0, 0.38),
-    place(0.3, 0.34), place(0.56, 0.2), place(0.6, 0.045) })
+  local low, high = 5.5 / pose.height, pose.belly or 0.38
+  add("black", through { place(-0.6, low), place(-0.56, 0.53 * high), place(-0.3, 0.9 * high),
+    place(0, high), place(0.3, 0.9 * high), place(0.56, 0.53 * high), place(0.6, low) })
 
   add("blue", ring(pose.x + pose.lean * 0.2, pose.y - 0.42 * pose.height, pose.width * 0.53,
     pose.height * 0.47))
@@ -168,39 +174,58 @@ local gape = { { -0.46, 0.63 }, { 0, 0.68 }, { 0.46, 0.63 }, { 0.4, 0.5 }, { 0, 
 local smug = { { -0.2, 0.5 }, { -0.08, 0.475 }, { 0.06, 0.475 }, { 0.24, 0.53 } }
 local flat = { { -0.3, 0.475 }, { -0.1, 0.49 }, { 0.1, 0.485 }, { 0.3, 0.46 } }
 
+local purse = { { -0.26, 0.5 }, { -0.1, 0.525 }, { 0.08, 0.5 }, { 0.26, 0.53 } }
+local doubt = { { -0.26, 0.485 }, { -0.08, 0.48 }, { 0.1, 0.48 }, { 0.28, 0.5 } }
+
 local function legs(w, long, out, lift)
   local a, b = pair(hanging(w, long, out))
   return { a, b, reaching(-0.38 * w, -lift * 0.36, -0.78 * w, -lift * 0.72),
     reaching(0.38 * w, -lift * 0.42, 0.72 * w, -lift * 1.02) }
 end
 
+--- Legs that push off, and arms that stay behind.
+local function pushing(w, long, h)
+  local a, b = pair(hanging(w, long, 6))
+  local c, d = pair(reaching(0.42 * w, -0.36 * h, 0.7 * w, -0.04 * h))
+  return { a, b, c, d }
+end
+
+-- A pose without limbs is drawn for those of another one: paint.lua says which.
 frog.poses = {
-  { x = 330, y = 440, width = 196, height = 156, lean = 4, eyes = "up", gaze = { 3, -5 },
+  { x = 330, y = 440, width = 196, height = 156, lean = 4, eyes = "open",
     mouth = smile, limbs = sitting(196, 156) },
-  { x = 328, y = 442, width = 214, height = 134, lean = -4, eyes = "up", gaze = { 3, -5 },
-    bulge = 0.1,
+  { x = 328, y = 442, width = 214, height = 134, lean = -4, eyes = "open", bulge = 0.1,
     mouth = tight, limbs = sitting(216, 138) },
-  { x = 324, y = 443, width = 236, height = 112, lean = -10, eyes = "up", gaze = { 3, -5 },
-    bulge = 0.16,
+  { x = 324, y = 443, width = 236, height = 112, lean = -10, eyes = "open", bulge = 0.16,
     mouth = tight, limbs = sitting(234, 118) },
-  { x = 350, y = 372, width = 152, height = 206, lean = 34, eyes = "wide", gaze = { 3, -5 },
-    eye = 1.08, bulge = -0.1, mouth = gape, limbs = legs(152, 96, -4, 206) },
-  { x = 388, y = 292, width = 190, height = 160, lean = 14, eyes = "shut", gaze = { 0, 0 },
-    mouth = smile, limbs = legs(190, 66, 16, 150) },
-  { x = 396, y = 444, width = 244, height = 104, lean = 4, eyes = "shut", gaze = { 0, 0 },
-    bulge = 0.16,
-    mouth = tight, limbs = sitting(244, 112) },
-  { x = 394, y = 440, width = 190, height = 174, lean = -8, eyes = "shut", gaze = { 0, 0 },
+  -- the leap: off the leaf, at the fly, and shut
+  { x = 338, y = 388, width = 140, height = 236, lean = 36, eyes = "open", eye = 0.98, bulge = 0.06,
+    mouth = tight, limbs = pushing(140, 50, 236) },
+  { x = 350, y = 337, width = 152, height = 206, lean = 34, eyes = "open", eye = 1.08,
+    bulge = -0.1, mouth = gape, limbs = legs(152, 96, -4, 172) },
+  { x = 352, y = 336, width = 160, height = 186, lean = 26, eyes = "tight", bulge = -0.06,
+    cheeks = 0.12, mouth = purse },
+  -- a gulp, from the cheeks into the belly; the fall, and the landing
+  { x = 386, y = 294, width = 180, height = 168, lean = 18, eyes = "happy", cheeks = 0.24,
+    mouth = purse, belly = 0.3 },
+  { x = 388, y = 292, width = 190, height = 160, lean = 14, eyes = "happy", bulge = 0.22,
+    mouth = smile, belly = 0.41, limbs = legs(190, 66, 16, 150) },
+  { x = 394, y = 364, width = 170, height = 186, lean = 8, eyes = "open", eye = 1.04, bulge = 0.2,
+    mouth = flat, limbs = legs(170, 66, 12, 196) },
+  { x = 396, y = 444, width = 244, height = 104, lean = 4, eyes = "happy", bulge = 0.16,
+    mouth = tight, limbs = sitting(232, 112) },
+  { x = 394, y = 440, width = 190, height = 174, lean = -8, eyes = "happy", belly = 0.33,
     mouth = smug, limbs = sitting(190, 160) },
-  { x = 394, y = 441, width = 204, height = 146, lean = 8, eyes = "wide", gaze = { 3, -5 },
-    eye = 1.05, mouth = flat, limbs = sitting(204, 148) },
-  { x = 394, y = 441, width = 208, height = 138, lean = 8, eyes = "shut", gaze = { 0, 0 },
-    mouth = flat, limbs = sitting(206, 142) },
+  -- where is it?
+  { x = 394, y = 441, width = 200, height = 158, lean = 0, eyes = "open", belly = 0.36,
+    mouth = doubt },
+  { x = 394, y = 441, width = 204, height = 146, lean = 8, eyes = "open", eye = 1.05, mouth = flat,
+    limbs = sitting(204, 148) },
 }
 
 --- The mouths of the words, around the middle of that of pose 7: closed lines, and a tongue.
 local function mouth(w, top, bottom, tongue)
-  local x, y = 391, 354
+  local x, y = 391, 348
   local list = { { pencil = "black", points = through({ { x - w, y - 0.6 * top }, { x - 0.5 * w,
     y - top },
     { x + 0.5 * w, y - top }, { x + w, y - 0.7 * top }, { x + 0.74 * w, y + 0.7 * bottom },
@@ -213,6 +238,6 @@ local function mouth(w, top, bottom, tongue)
   return list
 end
 
-frog.mouths = { mouth(36, 9, 14), mouth(44, 16, 34, true), mouth(25, 11, 20) }
+frog.mouths = { mouth(36, 9, 14), mouth(44, 20, 27, true), mouth(25, 11, 20) }
 
 return frog

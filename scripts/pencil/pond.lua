@@ -65,18 +65,19 @@ local function reeds(x, count, seed, p)
   return union(list)
 end
 
+--- Planes behind the leaf on which he sits, that leaf, and a plane in front of it.
 return function(p)
   local sky = linear { from = { 0, 0 }, to = { 0, 470 }, { 0, p.sky }, { 1, p.haze } }
   local water = linear { from = { 0, 430 }, to = { 0, 700 }, { 0, p.far }, { 1, p.water } }
   return {
-    { rect { -400, -400, 2080, 900, fill = sky }, circle { 985, 168, 84, fill = p.sun },
-      cloud(90, 150, 260, p.cloud), cloud(690, 232, 210, p.cloud), cloud(1130, 90, 180, p.cloud),
+    { rect { -400, -400, 2080, 900, fill = sky }, circle { 270, 150, 84, fill = p.sun },
+      cloud(70, 196, 240, p.cloud), cloud(690, 232, 210, p.cloud), cloud(1130, 90, 180, p.cloud),
       z = 3000 },
     { path { fill = p.hill, d = "M-400 480 V390 C-150 300 60 300 250 370 C420 300 640 280 820 372 "
       .. "C1010 290 1260 300 1680 400 V480 Z" }, z = 1800 },
     { wood(412, 74, 62, "wood", p.wood), z = 1100 },
     { rect { -400, 432, 2080, 700, fill = water }, gleams(46, p.gleam),
       leaf(150, 520, 92, 13, p), leaf(1060, 548, 120, 18, p), lily(1090, 545, 1, p), z = 500 },
-    { leaf(610, 622, 430, 52, p), lily(960, 622, 1.25, p), z = 0 },
-  }, { reeds(-40, 9, "left", p), reeds(1150, 9, "right", p), z = -180 }
+  }, leaf(610, 622, 430, 52, p) | lily(1004, 602, 0.95, p),
+    { reeds(-40, 9, "left", p), reeds(1150, 9, "right", p), z = -180 }
 end

@@ -15,15 +15,20 @@ local function circle(x, y, r, fill)
   return celspan.circle { centre = { x, y }, radius = r, fill = fill }
 end
 
---- A line of a pencil: pressed harder in its middle, and not quite where it should be.
+--- A line of a pencil: not quite where it should be, and not pressed alike on its way; one with two
+--- ends is thin there.
 local function pencilled(line, random, name)
   local points, count = {}, #line.points
-  local press = line.pencil == "blue" and 1.3 or 2
+  local first, last = line.points[1], line.points[count]
+  local is_closed = first[1] == last[1] and first[2] == last[2]
+  local press, turn = line.pencil == "blue" and 1.3 or 2.3, 6.28 * random(name)
   for i, p in ipairs(line.points) do
     local u = (i - 1) / (count - 1)
-    local shake = math.sin(9 * u + 6 * random(name)) * 0.35
+    local shake = math.sin(9 * u + turn) * 0.35
+    local hand = 0.86 + 0.24 * math.sin(12.566 * u + turn) + 0.16 * math.sin(31.416 * u - turn)
+    local tip = is_closed and 1 or math.min(1, 0.66 + 4 * u, 4.66 - 4 * u)
     points[i] = { p[1] + shake, p[2] - shake,
-      press * (0.8 + 0.25 * math.sin(math.pi * u) + 0.15 * random(name .. i // 3)) }
+      press * tip * (hand + 0.12 * random(name .. i // 3)) }
   end
   return celspan.stroke { points = points, cap = "round", join = "round",
     fill = colours[line.pencil] }
@@ -83,6 +88,6 @@ end
 
 for i, pose in ipairs(frog.poses) do
   write("body", i, frog.body(pose))
-  if i < 9 then write("legs", i, frog.legs(pose)) end -- drawing 9 has the legs of 8
+  if pose.limbs then write("legs", i, frog.legs(pose)) end
 end
 for i, lines in ipairs(frog.mouths) do write("mouth", i, lines) end
