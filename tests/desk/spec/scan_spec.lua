@@ -1,9 +1,11 @@
 -- Scans whose truth is known, registered and cleaned. tests/bench/scan.lua measures 200 of them.
 local celspan = require "celspan"
 local ink = require "celspan.ink"
+local markdown = require "tests.support.markdown"
 local present = require "tests.support.present"
 local raised = require "tests.support.raised"
 local scans = require "tests.support.scans"
+local system = require "tests.support.system"
 local workbench = require "tests.support.workbench"
 
 if not present.pictures() then
@@ -211,6 +213,24 @@ describe("celspan scan", function()
     for _, name in ipairs { "clean/level.02.png", "clean/level.red.01.png", "moved.png" } do
       assert.is_truthy(bench:read(name), name)
     end
+  end)
+
+  it("makes the clean lines of scripts/pencil, by the commands of the page", function()
+    assert.equal(0, (bench:inside "mkdir pencil"))
+    local clean = { body = "body.black.0004.png", legs = "legs.0004.png", mouth = "mouth.0002.png" }
+    for _, name in pairs(clean) do
+      local scan = "pencil/" .. name:gsub("black%.", "")
+      bench:write(scan, (system.read("scripts/" .. scan)))
+    end
+    local count = 0
+    for line in markdown.read "docs/from-pencil.md":gmatch "\ncelspan (scan [^\n]+)" do
+      local code, _, text = bench:celspan_inside("%s", line)
+      assert.equal(0, code, text)
+      local name = "pencil/clean/" .. clean[line:match "pencil/(%l+)"]
+      assert.is_true(bench:read(name) == system.read("scripts/" .. name), name)
+      count = count + 1
+    end
+    assert.equal(3, count)
   end)
 
   it("puts the name of an ink before the number", function()
