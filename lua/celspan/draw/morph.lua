@@ -16,6 +16,8 @@ local outlines = require "celspan.outlines"
 
 local morph = {}
 
+local FAR = 0.25 -- of a drawing's longer side
+
 local function refuse(text, ...) native.refuse("morph: " .. text:format(...)) end
 
 local function between(x, y, u) return x + (y - x) * u end
@@ -195,6 +197,7 @@ local function read_pairs(list)
       key[#key + 1] = ("%q %q"):format(first, second)
     elseif type(first) == "table" and type(second) == "table" then
       local place = read_places(i, pair)
+      place.number = i
       steering.places[#steering.places + 1] = place
       key[#key + 1] = ("%a %a %a %a %a"):format(table.unpack(place))
     else
@@ -231,17 +234,36 @@ local function nearest(node, x, y, best)
     if distance < best.distance then best.distance, best.contours = distance, node.contours end
   end
   for _, child in ipairs(node) do nearest(child, x, y, best) end
-  return best.contours
+  return best.contours, best.distance
+end
+
+--- Between drawings, a place chooses a piece, and so lies near one.
+local function check_near(node, which, place, x, y, distance)
+  local _, _, w, h = node.object:bounds()
+  if w and distance > FAR * math.max(w, h) then
+    refuse("pair %d: no line of the %s drawing is near (%g, %g); the nearest is %.4g away",
+      place.number, which, x, y, distance)
+  end
 end
 
 --- Assigns each pair of places to the nearest outlines of both nodes.
 local function assign(p, q, steering)
-  steering.given = {}
+  local given = {}
   for _, place in ipairs(steering.places) do
-    place.contours = nearest(p, place[1], place[2], { distance = math.huge })
-    steering.given[place.contours or place] =
-      nearest(q, place[3], place[4], { distance = math.huge })
+    local x, y, u, v = table.unpack(place)
+    local own, far = nearest(p, x, y, { distance = math.huge })
+    local other, far_off = nearest(q, u, v, { distance = math.huge })
+    if steering.unsure then
+      check_near(p, "first", place, x, y, far)
+      check_near(q, "second", place, u, v, far_off)
+      if own and given[own] and given[own] ~= other then
+        refuse("pair %d: the piece at (%g, %g) has another partner already", place.number, x, y)
+      end
+    end
+    place.contours = own
+    if own then given[own] = other end
   end
+  steering.given = given
 end
 
 -- ---------------------------------------------------------------- the face

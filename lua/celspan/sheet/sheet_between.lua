@@ -201,6 +201,24 @@ local function morphed(subject, run, share)
     key_drawing(subject, cells[run.last]), share, subject.pairs[run.name] or subject.pairs)
 end
 
+--- Warns of what may be a mistake in a run, around one of its cells.
+local function warn_of(subject, run, cell, unsure)
+  local function warn(text, ...)
+    native.warn(("sheet: layer %q, %s: "):format(subject.layer, run.name) .. text:format(...))
+  end
+  for _, pair in ipairs(unsure or {}) do
+    warn("the piece at (%g, %g) may not be the one at (%g, %g): name both, or give pairs",
+      pair[1][1], pair[1][2], pair[2][1], pair[2][2])
+  end
+  if cell.name and not cell.is_between and not run.is_charted then
+    warn("%q has no drawing and no mark i, and is shown as an in-between", cell.name)
+  end
+  for _, i in ipairs { run.first, run.last } do
+    local key = subject.cells[i]
+    if not key_drawing(subject, key):bounds() then warn("the key %q is empty", key.name) end
+  end
+end
+
 function between.drawing(subject, frame)
   local i = ordered.last(subject.cells, frame, "frame")
   local cell = subject.cells[i]
@@ -217,11 +235,7 @@ function between.drawing(subject, frame)
   end
   local number = select(2, inner_of(subject, run))[cell.name or i]
   local object, unsure = morphed(subject, run, shares_of(subject, run)[number])
-  for _, pair in ipairs(native.warns() and unsure or {}) do
-    native.warn(("sheet: layer %q, %s: the piece at (%g, %g) may not be the one at (%g, %g): name "
-      .. "both, or give pairs"):format(subject.layer, run.name, pair[1][1], pair[1][2], pair[2][1],
-      pair[2][2]))
-  end
+  if native.warns() then warn_of(subject, run, cell, unsure) end
   return object
 end
 

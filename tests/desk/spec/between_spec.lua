@@ -122,6 +122,70 @@ describe("an in-between", function()
     assert.are.same({}, marked:charts("A", drawings, { pairs = { ["A1-A5"] = {
       { { 0, 0 }, { 0, 3 } }, { { 0, 6 }, { 0, 9 } } } } })[1].unsure)
   end)
+
+  it("lists places that settle what is not sure, when they are given as pairs", function()
+    -- Two bows, whose boxes have their middles on a third piece, inside a group.
+    local function bow(y, dy) return celspan.stroke { width = 2,
+      d = ("M0 %gQ40 %g 80 %g"):format(y, y + dy, y) } end
+    local first = celspan.union { bow(0, 60), celspan.union { bow(6, 60), bow(7, 60) },
+      celspan.stroke { d = "M20 15H60M20 18H60", width = 2 } }
+    local last = celspan.union { bow(3, 60), celspan.union { bow(-3, 60), bow(-2, 60) },
+      celspan.stroke { d = "M20 16H60M20 19H60", width = 2 } }
+    local drawings = { A1 = first, A5 = last }
+    local unsure = marked:charts("A", drawings)[1].unsure
+    assert.is_true(#unsure > 0)
+    for _, given in ipairs { unsure, { ["A1-A5"] = unsure } } do
+      assert.are.same({}, marked:charts("A", drawings, { pairs = given })[1].unsure)
+    end
+  end)
+
+  it("lets what is many times as long shrink, and what has become of it grow", function()
+    local function two(d)
+      return celspan.union { celspan.stroke { d = d, width = 2, cap = "butt" },
+        celspan.rect { 40, 20, 20, 10 } }
+    end
+    local drawings = { A1 = two "M0 0H100", A5 = two "M45 0H55" }
+    local object = marked:drawing("A", 5, drawings, { between = true })
+    near({ 25, -0.5, 50, 30.5 }, { object:bounds() }, 0.01)
+    object = marked:drawing("A", 5, drawings, { pairs = { { { 0, 0 }, { 45, 0 } } } })
+    near({ 22.5, -1, 55, 31 }, { object:bounds() }, 0.01)
+  end)
+
+  it("is reported by check, where its name has no mark, or a key is empty", function()
+    local bench = workbench.new()
+    bench:write("film.lua", [[
+local sheet = require "celspan.sheet"
+local s = sheet.new { layers = { "A" }, frames = 4, drawings = { A = { "A1", "A2", "A3", "A4" } },
+  marks = { A = { [2] = "inbetween" } } }
+local keys = { A1 = rect { 0, 0, 9, 9 }, A4 = union {} }
+return film { size = { 32, 18 }, frames = 4, frame = function(f)
+  return { s:drawing("A", f.number, keys, { between = true }) }
+end }
+]])
+    local _, out, err = bench:celspan_inside "check film.lua"
+    local text = out .. err
+    bench:remove()
+    assert.matches('layer "A", A1%-A4: "A3" has no drawing and no mark i', text)
+    assert.matches('layer "A", A1%-A4: the key "A4" is empty', text)
+    assert.is_nil(text:find('"A2" has no drawing', 1, true))
+  end)
+
+  it("refuses pairs that are on no line, or give one piece twice", function()
+    local twice = celspan.union { celspan.stroke { d = "M0 0H60", width = 2 },
+      celspan.stroke { d = "M0 40H60", width = 2 } }
+    local drawings = { A1 = twice, A5 = twice }
+    for message, given in pairs {
+      ["pair 2: no line of the first drawing is near (0, 400); the nearest is 360 away"] =
+        { { { 0, 0 }, { 0, 0 } }, { { 0, 400 }, { 0, 0 } } },
+      ["pair 1: no line of the second drawing is near (-90, 0); the nearest is 90 away"] =
+        { { { 0, 0 }, { -90, 0 } } },
+      ["pair 2: the piece at (60, 0) has another partner already"] =
+        { { { 0, 0 }, { 0, 0 } }, { { 60, 0 }, { 60, 40 } } },
+    } do
+      local _, text = pcall(marked.drawing, marked, "A", 5, drawings, { pairs = given })
+      assert.is_truthy(tostring(text):find(message, 1, true), text)
+    end
+  end)
 end)
 
 describe("charts", function()
