@@ -175,7 +175,7 @@ return {
   ["lua/celspan/read/sound.lua"] = { "spec/mix", "spec/spectrum" },
   ["lua/celspan/read/spectrum.lua"] = { "spec/spectrum" },
   ["lua/celspan/film/soundtrack.lua"] = { "spec/mix" },
-  ["lua/celspan/film/scenes.lua"] = { "spec/desk", "spec/watch_cels" },
+  ["lua/celspan/draw/scenes.lua"] = { "spec/desk", "spec/watch_cels", "spec/sheet" },
   ["lua/celspan/film/shots.lua"] = { "spec/watch_shots", "spec/watch_cels" },
   ["heard.c"] = { "unit/embedding", "spec/mix", "spec/embedding" },
   ["parameters.c"] = { "unit/embedding", "spec/parameters", "spec/embedding" },

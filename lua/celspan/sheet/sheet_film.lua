@@ -1,6 +1,7 @@
 --- The columns of a sheet from the frames of a film.
 local columns = require "celspan.columns"
 local native = require "celspan.native"
+local scenes = require "celspan.scenes"
 
 local sheet_film = {}
 
@@ -61,12 +62,24 @@ local function add_part(column, part, frame)
   column.placement, column.met = part.placement, frame
 end
 
+--- What a frame shows, where multiplane cameras rest.
+local function shown(film, number)
+  local made, list = film:at(number), {}
+  if type(made) ~= "table" then return scenes.at_rest(made) end
+  for i, exposure in ipairs(made) do
+    local is_bare = type(exposure) ~= "table"
+    list[i] = is_bare and scenes.at_rest(exposure)
+      or { scenes.at_rest(exposure[1]), exposure[2] }
+  end
+  return list
+end
+
 --- The columns of all frames, or of those with the listed numbers.
 function sheet_film.columns(film, listed)
   local state = { layers = {}, by_key = {}, taken = {} }
   for frame = 1, listed and #listed or film.frames do
     local number = listed and listed[frame] or film.first + frame - 1
-    for _, part in ipairs(merge_parts(native.parts(film:at(number)))) do
+    for _, part in ipairs(merge_parts(native.parts(shown(film, number)))) do
       add_part(column_for(state, part), part, frame)
     end
     for _, column in ipairs(state.layers) do

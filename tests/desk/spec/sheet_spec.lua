@@ -686,6 +686,30 @@ describe("the sheet of a film", function()
     for n = 2, #changes do assert.is_true(s:marks("c", n).moved, n) end
   end)
 
+  it("has the drawings of a multiplane camera as it rests", function()
+    local multiplane = require "celspan.multiplane"
+    local function frame(f)
+      return multiplane { film = { 32, 18 }, aperture = 5,
+        camera = { x = 4 * f.number, z = 100 * f.number }, { hand, z = 800 },
+        { fist:translate(f.number == 3 and 2 or 0, 0), z = 0 } }
+    end
+    for _, made in ipairs { frame, function(f) return { { frame(f), 1 } } end } do
+      local s = sheet_of(3, made)
+      assert.are.same({ "cel 1", "cel 2" }, s.layers)
+      assert.are.equal("1 1 1", exposed(s, "cel 1"))
+      assert.are.equal("1 1 2", exposed(s, "cel 2"))
+      assert.are.same({}, s:marks("cel 1", 3))
+    end
+    write("depth.lua", [[
+return film { size = { 32, 18 }, frames = 3, frame = function(f)
+  return multiplane { film = { 32, 18 }, camera = { x = f.number }, { rect { 0, 0, 9, 9 }, z = 9 } }
+end }
+]])
+    local code, out = bench:celspan_inside "sheet depth.lua"
+    assert.are.equal(0, code)
+    assert.matches("1 *1\n *2 *|\n *3 *|\n", out)
+  end)
+
   it("names the parts of a rostrum that has a name, such as a shot, by it", function()
     local s = sheet_of(2, function(f)
       local shot = celspan.rostrum { size = { 20, 20 },

@@ -7,6 +7,7 @@ local ordered = require "celspan.ordered"
 local sheet = require "celspan.sheet"
 
 local input, output = request[1], request.output
+local own_name = input:match "[^/]*$":gsub("%.[^.]*$", "")
 local is_edit = output and program.has_ending(output, ".otio", ".edl")
 local is_script = request.script or program.has_ending(input, ".lua")
 
@@ -35,7 +36,8 @@ end
 local function write_edit(script)
   local folders = output:find "^/" and "" or output:gsub("[^/]*$", ""):gsub("%./", "")
   local text = script:ask("celspan.edits", "text", json.encode({ form = output:lower():match "%w+$",
-    media = request.media, up = folders:gsub("[^/]+/+", "../") }, { plain = true }))
+    media = request.media, name = own_name, up = folders:gsub("[^/]+/+", "../") },
+    { plain = true }))
   if text:find "^-" then program.fail("input", "%s: %s", output, text:sub(2)) end
   local list = { write = function(_, path) return files.write(path, text:sub(2)) end }
   return program.put(list, output, request[1])
@@ -51,7 +53,7 @@ end
 
 --- Writes the sheet on paper, with what a film adds to it.
 local function print_sheet(made, script)
-  local title = made.name ~= "" and made.name or input:match "[^/]*$":gsub("%.[^.]*$", "")
+  local title = made.name ~= "" and made.name or own_name
   local notes = script and program.part("shooting.lua", program, script,
     request.frames and script:numbers()) or {}
   program.make_folders(output)
@@ -76,6 +78,8 @@ refuse_if(is_edit and (request.frames or not is_script),
   "-o: %s is an edit list, which is made of a script, of all its frames", output)
 refuse_if(request.media and not is_edit,
   "--media goes with an edit list: -o cut.otio or cut.edl")
+refuse_if(request.media and request.media:gsub("{name}", ""):find "[{}]",
+  "--media: '%s': only {name} goes in braces, for the name of the shot", request.media)
 refuse_if((request.paper or request.font) and not is_paper,
   "--paper and --font go with a sheet on paper: -o cut.pdf")
 if request.font and program.entries(request.font) ~= false then
@@ -89,7 +93,10 @@ if not is_script then program.refuse_rights() end
 
 local script = is_script and program.script()
 if is_edit then return write_edit(script) end
-if script then script:kept("celspan.shots", "mark", "on") end -- the parts of a shot have its name
+if script then
+  script:kept("celspan.shots", "mark", "on") -- the parts of a shot have its name
+  script:ask("celspan.scenes", "rest", "on") -- a camera moves no drawing
+end
 local made = script and sheet.of(script, request.frames and { frames = script:numbers() })
   or program.input(sheet.read(input))
 if is_paper then return print_sheet(made, script) end
