@@ -132,7 +132,8 @@ end
 local function frame_of(state, text)
   local is_dropped = state.is_dropped or text:find ";"
   if is_dropped and not state.dropped then
-    fail("line %d: an EDL with drop frames at a rate that has none: %.14g", state.line, state.rate)
+    fail("line %d: an EDL with drop frames at a rate that has none: %.14g; give the films of its "
+      .. "shots fps = 30000 / 1001, or write FCM: NON-DROP FRAME", state.line, state.rate)
   end
   local frame, message = timecode.frame(text, state.codes, is_dropped and state.dropped or 0)
   return frame or fail("line %d: %s", state.line, message)
@@ -243,7 +244,11 @@ local function add_seen(state, event, out, is_last)
   if event.at > state.at then
     table.insert(state.parts, { count = event.at - state.at, reel = "BL", speed = 1, from = 0 })
   end
-  local count = event.stop - event.at
+  local count, source = event.stop - event.at, event.to - event.from
+  if not event.speed and count ~= source and source > 0 and event.reel ~= "BL" then
+    skip(state, "%s: it has %d frames of its source for %d of the film, and no M2: it is shown at "
+      .. "%.4g times its speed", event.place, source, count, source / count)
+  end
   if event.frames > 0 then
     add_out(state, out, event)
     table.insert(state.parts, { frames = event.frames, place = event.place,

@@ -34,10 +34,10 @@ local function base_of(path) return path:match "[^/\\]*$" end
 
 -- ---------------------------------------------------------------- of a film
 
---- The parts of a film: its shots and transitions, or the film as one shot.
-local function parts_of(film)
+--- The parts of a film: its shots and transitions, or the film as one shot with this name.
+local function parts_of(film, name)
   local parts, kept = {}, shots_of.of(film) or { into = {}, shots = { { film = film, speed = 1,
-    label = film.title or "film", from = film.first, count = film.frames } } }
+    label = name, from = film.first, count = film.frames } } }
   local function add_transition(into)
     if into then parts[#parts + 1] = { frames = into.count, about = into.between.about } end
   end
@@ -92,17 +92,19 @@ local writers = { otio = edit_otio.encode, edl = edit_edl.encode }
 
 --- For `celspan sheet`: "+" and the edit list of a film, or "-" and a message. wish: JSON of its
 --- `form`, "otio" or "edl"; of `media`, the name of a shot's file with {name} for the name of the
---- shot; and of `up`, the way from the folder of the list to the current one.
+--- shot; of `up`, the way from the folder of the list to the current one; and of `name`, the title
+--- of a film that has none.
 function edits.text(wish, film)
   wish = assert(json.decode(wish))
-  local parts, sounds = parts_of(film), sounds_of(film)
+  local title = film.title or wish.name
+  local parts, sounds = parts_of(film, title), sounds_of(film)
   for _, part in ipairs(parts) do
     part.media = wish.media and part.name and wish.media:gsub("{name}", { ["{name}"] = part.name })
   end
   for _, sound in ipairs(sounds) do
     sound.media = sound.media and (sound.media:find "^/" and "" or wish.up) .. sound.media
   end
-  local text, message = fields.caught(writers[wish.form], { title = film.title or "celspan",
+  local text, message = fields.caught(writers[wish.form], { title = title,
     rate = timecode.rate(film.fps), parts = parts, marks = marks_of(film, parts), sounds = sounds })
   return text and "+" .. text or "-" .. message
 end

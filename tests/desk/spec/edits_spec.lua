@@ -201,6 +201,17 @@ describe("an edit list", function()
     assert.are.equal(1, #shots)
     assert.are.same({ "a.wav 0.000000 0.000000 2.083333 1" }, sounds_of(film))
   end)
+
+  it("has the name of the script, where the film has no title", function()
+    local script = [[return film { frames = 5, size = { 16, 9 }, frame = function() end }]]
+    local text = written("own.edl", script, "--media 'shots/{name}.mov'")
+    assert.matches("^TITLE: film\n", text)
+    assert.matches("FROM CLIP NAME: film\n.*SOURCE FILE: shots/film%.mov\n", text)
+    assert.are.equal("film", json.decode(written("own.otio", script)).name)
+    local code, _, err = bench:celspan_inside("sheet film.lua -o own.edl --media '{nam}.mov'")
+    assert.are.equal(2, code)
+    assert.matches("%-%-media: '{nam}%.mov': only {name} goes in braces", err)
+  end)
 end)
 
 -- ---------------------------------------------------------------- CMX 3600
@@ -223,7 +234,7 @@ describe("an EDL", function()
     assert.truthy(written("n.edl", script_at(30)):find("FCM: NON-DROP FRAME\n", 1, true))
     refused("line 3: 00:01:00:00 does not exist with drop frames", "b.edl", edl("FCM: DROP FRAME",
       "001  a  V  C  00:00:00:00 00:01:00:00 01:00:00:00 01:01:00:02"), long)
-    refused("line 2: an EDL with drop frames at a rate that has none: 24", "b.edl",
+    refused("line 2: an EDL with drop frames at a rate that has none: 24; give the films", "b.edl",
       edl "FCM: DROP FRAME", films_at(24))
   end)
 
@@ -278,6 +289,10 @@ describe("an EDL", function()
     assert.are.same({ hall[11], hall[11], hall[12], hall[12] }, shown("012.0", "00:00:00:10"))
     assert.are.same({ hall[11], hall[10], hall[9], hall[8] }, shown("-024.0", "00:00:00:10"))
     assert.are.same({ hall[11], hall[11], hall[11], hall[11] }, shown("000.0", "00:00:00:10"))
+    local _, shots = read("a.edl", edl(
+      "001  hall  V  C  00:00:00:00 00:00:01:00 01:00:00:00 01:00:00:12"), films)
+    assert.are.same({ "line 2: event 001: it has 24 frames of its source for 12 of the film, and "
+      .. "no M2: it is shown at 2 times its speed" }, shots.skipped)
   end)
 
   it("may have the codes of tapes, which begin at a whole hour", function()
