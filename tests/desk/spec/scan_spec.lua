@@ -265,10 +265,14 @@ describe("celspan scan", function()
     write("bad.1.png", { missing = { true, true, true } })
     for options, message in pairs {
       [""] = "-o is missing", ["-o a.png"] = "needs a number",
-      ["-o a.#.png --pegs oxberry"] = "--pegs",
-      ["-o a.#.png --levels 1"] = "--levels", ["-o a.#.png --ink red"] = "--ink",
+      ["-o a.#.png --pegs oxberry"] = "--pegs: 'oxberry' is not acme or none",
+      ["-o a.#.png --levels 1"] = "--levels",
+      ["-o a.#.png --ink red"] = "--ink: 'red' is not NAME=COLOUR, such as red=#c33",
+      ["-o a.#.png --ink 'a b=red'"] = "a name has letters, digits, _ and -",
+      ["-o a.#.png --ink a=red,a=#222"] = "--ink: 'a' is given twice",
       ["-o a.#.png --dpi 3"] = "--dpi", ["-o a.#.png --pegs acme --match"] = "--match goes",
-      ["-o a.#.png --dpi 75"] = "bad.1.png: none of the 3 peg holes",
+      ["-o a.#.png --dpi 75"] = "with the holes above or below, or give --pegs none",
+      ["-o a.#.png"] = "bad.1.png: it does not say its dpi: give --dpi, such as 300",
       ["-o a.#.png --dpi 75 --contact foo.xyz"] = "foo.xyz",
       ["-o a.#.png --ink a=red,b=red,c=red,d=red,e=red,f=red,g=red,h=red,i=red"] =
         "--ink must be 1 to 8 colours by name, got 9",

@@ -18,26 +18,40 @@ local function inks_of(text)
   local inks = {}
   for _, part in ipairs(program.split(text)) do
     local name, colour = part:match "^([%w_-]+)=(.+)$"
-    if not name or inks[name] then
-      program.usage("--ink: '%s' is not a new NAME=COLOUR, such as red=#c33", part)
+    if not name then
+      program.usage("--ink: '%s' is not NAME=COLOUR, such as red=#c33; a name has letters, "
+        .. "digits, _ and -", part)
+    elseif inks[name] then
+      program.usage("--ink: '%s' is given twice", name)
     end
     inks[name] = colour
   end
   return inks
 end
 
---- The scans, for scan.drawing. What the module says of an option is said of that of the verb.
+--- What the module says of its options, with those of the verb.
+local function said(message)
+  return (message:gsub("^.*ink: scan: ", "--"):gsub("pegs = false", "--pegs none")
+    :gsub("match = true", "--match"):gsub("give dpi, such as", "give --dpi, such as"))
+end
+
+--- The scans, for scan.drawing.
 local function open()
   local options = { pegs = request.pegs, match = request.match, dpi = tonumber(request.dpi),
     frames = request.frames, dust = math.tointeger(request.dust),
     ink = request.ink and inks_of(request.ink) }
-  if request.pegs == "none" then options.pegs = false end
+  if request.pegs == "none" then
+    options.pegs = false
+  elseif request.pegs and request.pegs ~= "acme" then
+    program.usage("--pegs: '%s' is not acme or none; a script gives other holes, as the field "
+      .. "pegs of ink.scan", request.pegs)
+  end
   if request.levels then
     local list = program.split(request.levels)
     options.levels = { tonumber(list[1]), tonumber(list[2]), list[3] }
   end
   local good, job, message = pcall(scan.open, request[1], options)
-  if not good then program.usage("%s", (job:gsub("^.*ink: scan: ", "--"))) end
+  if not good then program.usage("%s", said(job)) end
   return program.input(job, message)
 end
 
@@ -124,7 +138,8 @@ refuse_scans(job)
 local facts, sheet, height = {}, {}, 0
 program.count_frames(#job.numbers)
 for i, number in ipairs(job.numbers) do
-  local drawing = program.input(scan.drawing(job, number))
+  local drawing, message = scan.drawing(job, number)
+  if not drawing then program.input(nil, said(message)) end
   write_all(drawing, number)
   facts[i] = { number = number, turned = drawing.turned, offset = { list = drawing.offset },
     levels = { list = drawing.levels }, width = drawing.width, height = drawing.height }
