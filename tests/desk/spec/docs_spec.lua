@@ -97,18 +97,19 @@ local function check_code(code, message, printed)
   assert.are.equal(0, code, (printed or "") .. message)
 end
 
---- Examples whose frames take long, and the frames that stand for all of them, except in --all: one
---- in eight, and in `./run test` the first alone.
-local SLOW = { ["brush_lines.lua"] = "1-48:8", ["bar_race.lua"] = "1-120:8",
-  ["deep_title.lua"] = "1-96:8", ["glitch_title.lua"] = "1-72:8", ["stickers.lua"] = "1",
-  ["water_reflection.lua"] = "1-48:8" }
 local HAS_ALL = (tonumber(os.getenv "CELSPAN_SCENES") or 300) >= 300
 
-local function render_small(path, options)
-  local frames = not HAS_ALL and SLOW[path]
-  if frames and os.getenv "CELSPAN_PART" then frames = "1" end
+--- The option with the frames that stand for all of a film, except in --all: one in eight.
+local function sample_of(text)
+  local fields = text:match "film (%b{})%s*$" or ""
+  local rate, seconds = fields:match "fps = (%d+)", fields:match "duration = ([%d.]+)"
+  local count = tonumber(fields:match "frames = (%d+)" or seconds and seconds * (rate or 24))
+  return not HAS_ALL and count and count > 8 and ("--frames 1-%d:8"):format(count) or ""
+end
+
+local function render_small(path, block)
   return run(("celspan render %s -o pictures_made/%s.####.png --scale 0.1 --progress none %s %s")
-    :format(path, path, options or "", frames and "--frames " .. frames or ""))
+    :format(path, path, block.options or "", sample_of(block.text)))
 end
 
 --- The lines that a program prints according to its comments -->.
@@ -134,7 +135,7 @@ describe("the examples of", function()
       elseif block.language == "lua" and returns then
         it(place(page, block) .. " render", function()
           local path, error_text = write_example(block)
-          local code, _, message = render_small(path, block.options)
+          local code, _, message = render_small(path, block)
           if error_text then
             check_module(message)
             assert.is_true(code == 3 or code == 4, message)
@@ -194,7 +195,10 @@ describe("the commands of", function()
             end
             local command = line
             if laid then command = ("rm -rf %s; %s"):format(laid, line) end
-            if here and line:find "%.mp4$" then command = command .. " --scale 0.25" end
+            local has_size = line:find "%-%-size" or line:find "%-%-scale" or line:find "%-%-table"
+            if needs_ffmpeg(line) and line:find "^celspan render" and not has_size then
+              command = command .. " --scale 0.25"
+            end
             -- A leak check attaches to the process from another one, which --strict does not allow.
             local is_strict = line:find("--strict", 1, true)
             if is_strict then command = "ASAN_OPTIONS=$ASAN_OPTIONS:detect_leaks=0 " .. command end
