@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "common/made.h"
 #include "inside/clock.h"
 #include "inside/scene.h"
 #include "lua/bind/put.h"
@@ -18,48 +19,6 @@ static int fail(lua_State *L, const cs_script *script) {
   luaL_pushfail(L);
   lua_pushstring(L, celspan_context_error(script->context));
   return 2;
-}
-
-/* ---------------------------------------------------------------- cels */
-
-/* Makes the cel that replaces a cel of a rostrum. */
-typedef celspan_status (*maker)(void *user, const celspan_rostrum *from, size_t i,
-                                celspan_cel **out);
-
-static void drop_cels(celspan_context *context, celspan_cel **cels, size_t count, size_t most) {
-  for (size_t i = 0; i < count; i++)
-    celspan_cel_unref(cels[i]);
-  cs_mem_free(context->memory, cels, most * sizeof(celspan_cel *));
-}
-
-/* *out: new; the rostrum with its cels replaced by the results of `make`. If `make` returns NULL,
- * the cel is left out. */
-static celspan_status remake(celspan_context *context, const celspan_rostrum *from, maker make,
-                             void *user, celspan_rostrum **out) {
-  celspan_cel **cels;
-  size_t count = 0, most = from->cel_count + 1;
-  celspan_status status = CELSPAN_OK;
-  CS_TRY(CS_MAKE(context, cels, most));
-  for (size_t i = 0; i < from->cel_count && status == CELSPAN_OK; i++) {
-    status = make(user, from, i, &cels[count]);
-    count += status == CELSPAN_OK && cels[count];
-  }
-  if (status == CELSPAN_OK)
-    status = cs_rostrum_with(context, from, cels, count, out);
-  drop_cels(context, cels, count, most);
-  return status;
-}
-
-/* Changes all exposures of the frame. */
-static celspan_status change_frame(cs_script *script, maker make, void *user) {
-  for (size_t i = 0; i < script->frame.count; i++) {
-    celspan_exposure *exposure = &script->frame.exposures[i];
-    celspan_rostrum *changed;
-    CS_TRY(remake(script->context, exposure->rostrum, make, user, &changed));
-    celspan_rostrum_unref(exposure->rostrum);
-    exposure->rostrum = changed;
-  }
-  return CELSPAN_OK;
 }
 
 /* ---------------------------------------------------------------- cels in another way */
@@ -97,7 +56,7 @@ static celspan_status alter_part(alteration *a, const celspan_cel *cel, celspan_
   const celspan_object *whole = cel->objects[0];
   celspan_rostrum *part;
   celspan_object *plain = NULL, *placed = NULL, *faded = NULL;
-  CS_TRY(remake(a->context, whole->data->rostrum, alter_cel, a, &part));
+  CS_TRY(cs_remake(a->context, whole->data->rostrum, alter_cel, a, &part));
   celspan_status status = celspan_object_create_rostrum(a->context, part, &plain);
   if (status == CELSPAN_OK)
     status = celspan_object_transform(a->context, plain, whole->matrix, &placed);
@@ -134,7 +93,8 @@ int cs_stage_alter(lua_State *L) {
   alteration a = {L, script->context, lua_toboolean(L, 3)};
   luaL_checktype(L, 2, LUA_TTABLE);
   luaL_checkstack(L, 4, "too many values");
-  if (change_frame(script, alter_cel, &a) != CELSPAN_OK)
+  if (cs_remake_exposures(script->context, script->frame.exposures, script->frame.count, alter_cel,
+                          &a) != CELSPAN_OK)
     return fail(L, script);
   lua_pushboolean(L, true);
   return 1;
@@ -173,92 +133,22 @@ int cs_stage_use_camera(lua_State *L, cs_script *script, const celspan_rostrum *
 
 /* ---------------------------------------------------------------- what a line made */
 
-/* The objects that a line of the script made, in their places in the cel that is searched. */
-typedef struct made {
-  celspan_context *context;
+typedef struct kept {
   const char *source, *name, *label; /* NULL: of any name; in any cel */
   int32_t line;
-  celspan_object **objects; /* owned, with references */
-  size_t count, capacity;
-  bool is_any; /* the frame contains at least one */
-} made;
+} kept;
 
-static bool is_made(const made *m, cs_mark mark) {
-  return mark.line == m->line && mark.source && strcmp(mark.source, m->source) == 0 &&
-         (!m->name || strcmp(cs_mark_name(mark), m->name) == 0);
+static bool is_kept(void *user, cs_mark mark) {
+  const kept *k = user;
+  return mark.line == k->line && mark.source && strcmp(mark.source, k->source) == 0 &&
+         (!k->name || strcmp(cs_mark_name(mark), k->name) == 0);
 }
 
-static celspan_status add_made(made *m, celspan_object *object, const celspan_matrix *matrix) {
-  CS_TRY(CS_RESERVE(m->context, m->objects, m->capacity, m->count + 1));
-  CS_TRY(celspan_object_transform(m->context, object, matrix, &m->objects[m->count]));
-  m->count++;
-  m->is_any = true;
-  return CELSPAN_OK;
-}
-
-static celspan_status find_in_rostrum(made *m, const celspan_rostrum *rostrum,
-                                      const celspan_matrix *matrix);
-
-/* is_all: the object around them was made by the line, so all of them count. Recursion ends:
- * nesting is at most CS_SCENE_DEPTH. */
-static celspan_status find_made(made *m, celspan_object *const *objects, size_t count, bool is_all,
-                                const celspan_matrix *matrix) {
-  for (size_t i = 0; i < count; i++) {
-    const cs_primitive_data *data = objects[i]->data;
-    celspan_matrix inner = celspan_matrix_then(*objects[i]->matrix, *matrix);
-    if (is_all || is_made(m, objects[i]->mark))
-      CS_TRY(add_made(m, objects[i], matrix));
-    else if (data->kind == CS_PRIMITIVE_DATA_BOOLEAN)
-      CS_TRY(find_made(m, data->boolean->operands, data->boolean->operand_count, false, &inner));
-    else if (data->kind == CS_PRIMITIVE_DATA_ROSTRUM)
-      CS_TRY(find_in_rostrum(m, data->rostrum, &inner));
-  }
-  return CELSPAN_OK;
-}
-
-static celspan_status find_in_rostrum(made *m, const celspan_rostrum *rostrum,
-                                      const celspan_matrix *matrix) {
-  for (size_t i = 0; i < rostrum->cel_count; i++) {
-    const celspan_cel *cel = rostrum->cels[i];
-    celspan_matrix placed;
-    CS_TRY(cs_scene_cel_matrix(m->context, rostrum, i, rostrum->width, rostrum->height, &placed));
-    placed = celspan_matrix_then(placed, *matrix);
-    CS_TRY(find_made(m, cel->objects, cel->object_count, is_made(m, cel->mark), &placed));
-  }
-  return CELSPAN_OK;
-}
-
-static void drop_objects(made *m) {
-  while (m->count > 0)
-    celspan_object_unref(m->objects[--m->count]);
-}
-
-/* A cel at the same place with only the objects in it that the line made; no cel if there are
- * none. */
-static celspan_status keep_made(void *user, const celspan_rostrum *from, size_t i,
-                                celspan_cel **out) {
-  made *m = user;
-  const celspan_cel *cel = from->cels[i];
-  const celspan_matrix none = celspan_matrix_identity();
-  celspan_cel_desc desc = CELSPAN_CEL_DESC;
-  celspan_cel *plain = NULL;
+static bool is_searched(void *user, const celspan_rostrum *from, size_t i) {
+  const kept *k = user;
   char room[CS_STAGE_LABEL];
-  *out = NULL;
-  if (m->label && !cs_stage_part(cel) && strcmp(cs_stage_label(from, i, room), m->label) != 0)
-    return CELSPAN_OK;
-  celspan_status status =
-      find_made(m, cel->objects, cel->object_count, is_made(m, cel->mark), &none);
-  desc.objects = m->objects;
-  desc.object_count = m->count;
-  desc.has_viewport = cel->has_viewport;
-  desc.viewport = cel->viewport;
-  if (status == CELSPAN_OK && m->count > 0)
-    status = celspan_cel_create(m->context, &desc, &plain);
-  if (status == CELSPAN_OK && plain)
-    status = celspan_cel_transform(m->context, plain, &cel->matrix, out);
-  celspan_cel_unref(plain);
-  drop_objects(m);
-  return status;
+  return !k->label || cs_stage_part(from->cels[i]) ||
+         strcmp(cs_stage_label(from, i, room), k->label) == 0;
 }
 
 /* film:keep_line(source, line, name or nil, label or nil) -> whether the line made anything in the
@@ -266,14 +156,13 @@ static celspan_status keep_made(void *user, const celspan_rostrum *from, size_t 
  * objects, in white light | nil, message */
 int cs_stage_keep_line(lua_State *L) {
   cs_script *script = cs_service_opened(L);
-  made m = {.context = script->context,
-            .source = luaL_checkstring(L, 2),
+  kept k = {.source = luaL_checkstring(L, 2),
             .line = (int32_t)luaL_checkinteger(L, 3),
             .name = luaL_optstring(L, 4, NULL),
             .label = luaL_optstring(L, 5, NULL)};
-  celspan_status status = change_frame(script, keep_made, &m);
-  cs_mem_free(m.context->memory, m.objects, m.capacity * sizeof *m.objects);
-  if (status != CELSPAN_OK)
+  cs_made m = {
+      .context = script->context, .is_made = is_kept, .is_searched = is_searched, .user = &k};
+  if (cs_made_keep(&m, script->frame.exposures, script->frame.count) != CELSPAN_OK)
     return fail(L, script);
   lua_pushboolean(L, m.is_any);
   return 1;
@@ -306,7 +195,7 @@ static celspan_status measure_cel(celspan_context *context, const celspan_frame_
                                   size_t i, cost *out) {
   celspan_exposure alone = whole->exposures[0];
   celspan_frame_desc desc = *whole;
-  CS_TRY(remake(context, whole->exposures[0].rostrum, keep_one, &i, &alone.rostrum));
+  CS_TRY(cs_remake(context, whole->exposures[0].rostrum, keep_one, &i, &alone.rostrum));
   desc.exposures = &alone;
   desc.exposure_count = 1;
   celspan_status status = measure(context, &desc, out);
