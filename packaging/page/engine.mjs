@@ -11,6 +11,7 @@
 const MISSING = -1, FOLDER = -2, NOT_THERE = -52; // of files.c; ENOSYS
 const PAGE = 65536; // bytes of WebAssembly's memory
 const SIDE_MOST = 16384; // pixels: four bytes each are at most half of the memory
+const FRAME_MOST = 2 ** 20; // pixels of the side of a frame of which a part is drawn
 const LIMIT_MOST = 2 ** 53;
 
 const encoder = new TextEncoder(), decoder = new TextDecoder();
@@ -137,23 +138,28 @@ export const open = async (module, { files = {}, now = () => performance.now() }
     throw new Error(`celspan: ${name} must be a whole number from 1 to ${most}, got ${value}`);
   };
   let isBuilt = false; // a frame
-  const expectSize = (width, height) => {
+  const expectFrame = () => {
     expectRun();
     if (!isBuilt) throw new Error("celspan: there is no frame: build one with engine.frame");
-    expectWhole("width", width, SIDE_MOST);
-    expectWhole("height", height, SIDE_MOST);
+  };
+  const expectSize = (width, height, most = SIDE_MOST) => {
+    expectFrame();
+    expectWhole("width", width, most);
+    expectWhole("height", height, most);
   };
   let rgba = 0, rgba_size = 0;
-  const pixels = (width, height) => {
-    expectSize(width, height);
-    const size = width * height * 4;
+  const pixels = (width, height, [left, top, w, h] = [0, 0, width, height]) => {
+    expectSize(width, height, w === width && h === height ? SIDE_MOST : FRAME_MOST);
+    expectWhole("the width of the part", w, SIDE_MOST);
+    expectWhole("the height of the part", h, SIDE_MOST);
+    const size = w * h * 4;
     if (size > rgba_size) {
       x.free(rgba);
       rgba_size = 0;
       rgba = room(size);
       rgba_size = size;
     }
-    check(x.pixels(page, width, height, rgba));
+    check(x.pixels(page, width, height, left, top, w, h, rgba));
     return new Uint8ClampedArray(x.memory.buffer, rgba, size);
   };
 
@@ -193,7 +199,23 @@ export const open = async (module, { files = {}, now = () => performance.now() }
       check(x.frame(page, number));
       isBuilt = true;
     },
-    /** The frame in RGBA, 8 bits, straight alpha; valid until the next call. */
+    /** Leaves in the frame only what a line made, or what it called made: "film.lua:7". Returns
+     * whether there is any. */
+    keep(place) {
+      expectFrame();
+      lend([place], (at) => check(x.keep(page, at)));
+      return x.number(page, 7) === 1;
+    },
+    /** Where the objects at a point of the film were made: "film.lua:7 in walk, from film.lua:12", from
+     * the front. */
+    at(left, top) {
+      expectFrame();
+      const text = x.at(page, left, top);
+      if (!text) throw new Error(memory.text(x.error(page)));
+      return memory.text(text).split("\n").slice(0, -1);
+    },
+    /** The frame in RGBA, 8 bits, straight alpha; valid until the next call. part: [left, top, width,
+     * height] in it; without it the whole. */
     pixels,
     /** The digest of the frame, as `celspan render --hash` prints it. */
     digest(width, height) {

@@ -1,6 +1,6 @@
-/* What engine.mjs calls: one film at a time, from a text, by the public interface alone.
+/* What engine.mjs calls: one film at a time, from a text.
  *
- *   open -> set ... -> run -> frame -> pixels, digest -> close
+ *   open -> set ... -> run -> frame -> keep -> pixels, digest, at -> close
  *
  * Functions return a celspan_status, and after a failure `error` has the sentence.
  */
@@ -10,6 +10,9 @@
 #include <string.h>
 
 #include "celspan/lua.h"
+#include "common/hits.h"
+#include "common/made.h"
+#include "lua/bind/named.h"
 
 /* JavaScript calls them: no header declares them. */
 #pragma GCC diagnostic ignored "-Wmissing-prototypes"
@@ -23,6 +26,7 @@ typedef struct page {
   lua_State *L; /* with the film at 1, when a script has run */
   celspan_film film;
   celspan_frame_desc frame;
+  bool has_line; /* the line of `keep` made something */
   char *printed; /* NULL: nothing */
   size_t printed_size;
 } page;
@@ -61,6 +65,11 @@ static celspan_status confine(page *p, double steps, double memory) {
   return celspan_lua_sandbox(p->L, &limits);
 }
 
+static int keep_callers(lua_State *L) {
+  cs_named_keep_callers(L, true);
+  return 0;
+}
+
 /* steps, memory: as in celspan_lua_limits, of a run and of a frame; 0: the default. NULL: memory
  * is short. */
 TO_PAGE(open) page *cs_page_open(double steps, double memory) {
@@ -73,8 +82,10 @@ TO_PAGE(open) page *cs_page_open(double steps, double memory) {
       celspan_context_create(&desc, &p->context) == CELSPAN_OK && (p->L = luaL_newstate());
   if (is_open)
     luaL_openlibs(p->L);
-  if (is_open && celspan_lua_open(p->L, p->context) == CELSPAN_OK &&
-      confine(p, steps, memory) == CELSPAN_OK)
+  is_open = is_open && celspan_lua_open(p->L, p->context) == CELSPAN_OK;
+  if (is_open)
+    lua_pushcfunction(p->L, keep_callers);
+  if (is_open && lua_pcall(p->L, 0, 0, 0) == LUA_OK && confine(p, steps, memory) == CELSPAN_OK)
     return p;
   cs_page_close(p);
   return NULL;
@@ -96,14 +107,15 @@ celspan_status cs_page_run(page *p, const char *name, const char *text, size_t s
 }
 
 /* Of the film: its width and height, its first frame, how many it has, and how many a second. Then
- * the bytes that celspan holds, and the most that it held. */
+ * the bytes that celspan holds, and the most that it held; and
+ * whether the line of `keep` made anything. */
 TO_PAGE(number) double cs_page_number(page *p, int which) {
   size_t bytes = 0, peak = 0;
   uint64_t blocks = 0;
   celspan_context_memory(p->context, &bytes, &peak, &blocks);
   const double all[] = {p->film.width,         p->film.height,        (double)p->film.first,
                         (double)p->film.count, p->film.frames_second, (double)bytes,
-                        (double)peak};
+                        (double)peak,          (double)p->has_line};
   return which >= 0 && (size_t)which < sizeof all / sizeof *all ? all[which] : 0;
 }
 
@@ -121,11 +133,16 @@ static celspan_frame_desc sized(const page *p, int width, int height) {
   return frame;
 }
 
-/* rgba: four bytes a pixel, sRGB, with straight alpha. */
+/* Of a part of the frame. rgba: four bytes a pixel, sRGB, with straight alpha. */
 TO_PAGE(pixels)
-celspan_status cs_page_pixels(page *p, int width, int height, void *rgba) {
+celspan_status cs_page_pixels(page *p, int width, int height, int x, int y, int w, int h,
+                              void *rgba) {
   celspan_frame_desc frame = sized(p, width, height);
-  return celspan_frame_pixels(p->context, &frame, NULL, rgba, (size_t)width * 4, NULL);
+  frame.crop_x = x;
+  frame.crop_y = y;
+  frame.crop_width = w;
+  frame.crop_height = h;
+  return celspan_frame_pixels(p->context, &frame, NULL, rgba, (size_t)w * 4, NULL);
 }
 
 /* out: the digest that `celspan render --hash` prints. */
@@ -133,6 +150,92 @@ TO_PAGE(digest)
 celspan_status cs_page_digest(page *p, int width, int height, uint64_t out[2]) {
   celspan_frame_desc frame = sized(p, width, height);
   return celspan_frame_digest(p->context, &frame, NULL, out);
+}
+
+/* ---------------------------------------------------------------- lines of the script */
+
+typedef struct lines {
+  page *page;
+  celspan_point point;
+  const char *place; /* "film.lua:7" */
+  celspan_status status;
+  luaL_Buffer list;
+} lines;
+
+/* Pushes "film.lua:7 in walk, from film.lua:12": where a value was made, and its callers. */
+static void push_place(lua_State *L, cs_mark mark) {
+  celspan_origin origin = cs_mark_origin(mark);
+  luaL_checkstack(L, 4, "too many lines");
+  cs_named_push_callers(L, mark.callers);
+  lua_pushfstring(L, "%s:%d %s", origin.source, (int)origin.line, lua_tostring(L, -1));
+  lua_remove(L, -2);
+}
+
+static bool is_of_line(void *user, cs_mark mark) {
+  const lines *all = user;
+  lua_State *L = all->page->L;
+  push_place(L, mark);
+  const char *at = strstr(lua_tostring(L, -1), all->place);
+  while (at && at[strlen(all->place)] >= '0' && at[strlen(all->place)] <= '9')
+    at = strstr(at + 1, all->place);
+  bool is_found = at;
+  lua_pop(L, 1);
+  return is_found;
+}
+
+/* light userdata: lines. Runs protected, as find_lines. */
+static int keep_line(lua_State *L) {
+  lines *all = lua_touserdata(L, 1);
+  page *p = all->page;
+  cs_made made = {.context = p->context, .is_made = is_of_line, .user = all};
+  all->status =
+      cs_made_keep(&made, (celspan_exposure *)p->frame.exposures, p->frame.exposure_count);
+  p->has_line = made.is_any;
+  return 0;
+}
+
+static void add_line(void *user, const cs_hit *hit) {
+  lines *all = user;
+  push_place(all->page->L, hit->mark);
+  luaL_addvalue(&all->list);
+  luaL_addchar(&all->list, '\n');
+}
+
+static int find_lines(lua_State *L) {
+  lines *all = lua_touserdata(L, 1);
+  const cs_hits_wanted wanted = {.context = all->page->context,
+                                 .frame = &all->page->frame,
+                                 .point = all->point,
+                                 .found = add_line,
+                                 .user = all};
+  luaL_buffinit(L, &all->list);
+  all->status = cs_hits_find(&wanted);
+  luaL_pushresult(&all->list);
+  return 1;
+}
+
+/* Leaves the film and one more value on the stack. */
+static celspan_status call(lines *all, lua_CFunction function) {
+  lua_State *L = all->page->L;
+  lua_settop(L, 1);
+  lua_pushcfunction(L, function);
+  lua_pushlightuserdata(L, all);
+  if (lua_pcall(L, 1, 1, 0) == LUA_OK)
+    return all->status;
+  return celspan_context_fail(all->page->context, CELSPAN_NO_MEMORY,
+                              "there is no memory for lines");
+}
+
+/* Leaves in the frame only what a line made, itself or by what it called. place: "film.lua:7" */
+TO_PAGE(keep) celspan_status cs_page_keep(page *p, const char *place) {
+  return call(&(lines){.page = p, .place = place}, keep_line);
+}
+
+/* The places of the objects at a point, from the front, each on a line of its own; NULL: it failed.
+ * x, y: film units. */
+TO_PAGE(at) const char *cs_page_at(page *p, double x, double y) {
+  lines all = {.page = p, .point = {x, y}};
+  return call(&all, find_lines) == CELSPAN_OK ? lua_tostring(p->L, -1) : NULL;
 }
 
 TO_PAGE(error) const char *cs_page_error(page *p) { return celspan_context_error(p->context); }
