@@ -2,7 +2,9 @@
 // to which they link as a page with its text. Nothing in it comes from another server, and no
 // page needs a script. From the top of the tree:
 //
-//   node docs/site/make.js FOLDER
+//   node docs/site/make.js FOLDER [WEB]
+//
+// WEB: what ./run web made; with it, complete scripts run in their places (live/).
 //
 // A complete script is a figure, <figure class="script" data-script="NAME">, with its name, its
 // code and, in <div class="stage">, its picture: the one of that name in the same section.
@@ -18,7 +20,8 @@ const LANGUAGES = { lua: "lua", sh: "bash", c: "c", h: "c", json: "json", python
   py: "python", html: "html", js: "javascript", meson: "meson" };
 const AS_IS = ["llms.txt"]; // for programs, which expect it at this address
 
-const folder = process.argv[2];
+const [folder, web] = process.argv.slice(2);
+const hasEngine = web && fs.existsSync(`${web}/celspan.wasm`);
 const pages = new Map(); // the page of each file of the tree that is one
 const files = new Set(); // of the site, that are copied as they are
 const md = markdown();
@@ -168,6 +171,32 @@ function pictureBeside(tokens, at, name) {
     && posix.parse(token.children[0].attrGet("src")).name === name);
 }
 
+// What the engine of web pages, or a page, does not have.
+const LACKING = /\/usr\/share\/fonts|stage\.(dance|noto)|\.png"|celspan\.(ink|layers|relight|sound|trace|track)/;
+const READ = ["drawings", "stage", "type", "demo/line.tsv"]; // in scripts/
+const read = new Map(); // by scripts: the content of each file
+
+/** Keeps a block that others read, by its own name or that in backquotes above it. */
+function keepFile({ type, info, content }, above) {
+  if (type !== "fence" || !/^(lua|text)$/.test(info)) return;
+  const name = content.match(/^-- (\w+\.lua)[:\n]/)?.[1] ?? above?.match(/`([\w.-]+)`:$/)?.[1];
+  if (name) read.set(name, content);
+}
+
+/** Writes the folder live/: the engine, what drives it, and the files of scripts. */
+function writeLive() {
+  const copy = (from, to) => fs.cpSync(from, path.join(folder, to), { recursive: true });
+  copy(path.join(__dirname, "live"), "live");
+  for (const name of ["celspan.wasm", "more.json", "LICENSES"]) copy(`${web}/${name}`, `live/${name}`);
+  copy(`${web}/engine.mjs`, "live/engine.js"); // which servers know as a script
+  for (const name of READ) {
+    copy(`scripts/${name}`, `live/files/${name.replace("demo/", "")}`);
+  }
+  for (const [name, content] of read) write(`live/files/${name}`, content);
+  const names = fs.readdirSync(path.join(folder, "live/files"), { recursive: true });
+  write("live/files.json", JSON.stringify(names.filter(name => path.extname(name)))); // no folders
+}
+
 /** Moves pictures to their scripts. */
 function joinScripts(tokens) {
   for (const token of [...tokens]) {
@@ -187,7 +216,8 @@ md.renderer.rules.fence = (tokens, i, options, { page }) => {
   // Alone, "result" says nothing to those who do not see it.
   const alt = picture?.content === "result" ? about ?? `the picture of ${name}.lua` : undefined;
   const stage = picture ? `<div class="stage">${showPicture(page, picture, alt)}</div>\n` : "";
-  return `<figure class="script" data-script="${name}">${label}${isBelow ? code + stage
+  const live = hasEngine && !LACKING.test(content) ? " data-live" : "";
+  return `<figure class="script" data-script="${name}"${live}>${label}${isBelow ? code + stage
     : stage + code}</figure>\n`;
 };
 
@@ -206,6 +236,7 @@ function nameCaptioned(tokens) {
 /** Makes the body of a page out of its Markdown. */
 function showMarkdown(page) {
   const tokens = md.parse(fs.readFileSync(page.file, "utf8"), {});
+  tokens.forEach((token, i) => keepFile(token, tokens[i - 2]?.content));
   nameHeadings(page, tokens);
   joinScripts(tokens);
   nameCaptioned(tokens);
@@ -262,6 +293,7 @@ function make() {
   for (const name of ["site.css", "site.js"]) {
     write(name, fs.readFileSync(path.join(__dirname, name)));
   }
+  if (hasEngine) writeLive();
   console.log(`${pages.size} pages`);
 }
 

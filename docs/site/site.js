@@ -1,5 +1,5 @@
 // What a page does better with a script: it keeps the choice between dark and light for the next
-// page, copies code, and marks in the contents where the reader is.
+// page, copies code, marks in the contents where the reader is, and runs scripts.
 const root = document.documentElement;
 
 /** The chosen theme, or null; a browser may forbid to store one. */
@@ -53,4 +53,29 @@ function markPlace() {
   mark();
 }
 
-document.addEventListener("DOMContentLoaded", () => { keepTheme(); addCopyButtons(); markPlace(); });
+/** A touch or a key runs a script in its place. Nothing for that is loaded before. */
+function awaitTouch(figure) {
+  const run = document.createElement("button");
+  run.className = "run";
+  run.textContent = "Run";
+  figure.querySelector("figcaption").append(run);
+  const begin = async event => {
+    const isSelection = event.target.closest("pre") && !getSelection().isCollapsed;
+    if (figure.classList.contains("live") || isSelection || event.target.closest("a, .copy")) return;
+    figure.classList.add("live");
+    try {
+      (await import("./live/live.js")).enliven(figure, event);
+    } catch {
+      run.textContent = "The engine could not be loaded";
+    }
+  };
+  figure.addEventListener("click", begin);
+  figure.addEventListener("keydown", event => { if (event.key === "Enter") begin(event); });
+}
+
+document.addEventListener("DOMContentLoaded", () => {
+  keepTheme();
+  addCopyButtons();
+  markPlace();
+  document.querySelectorAll("figure[data-live]").forEach(awaitTouch);
+});

@@ -136,7 +136,7 @@ return {
   include = { "spec/hosts", "unit/embedding", "example/memory", "example/host", "spec/embedding" },
 
   ["docs"] = { "spec/docs", "spec/site" },
-  ["docs/site"] = { "spec/site" },
+  ["docs/site"] = { "spec/site", "spec/live" },
   ["README.md"] = { "spec/docs", "spec/site" },
   ["examples"] = { "example/memory", "example/surface", "example/letters", "example/painting",
     "example/embed", "example/facts", "example/host", "example/sandbox", "spec/embedding",

@@ -1,0 +1,88 @@
+// Films that a worker draws.
+//
+//   const one = film("return rostrum { back = 'teal' }", { name: "film.lua" });
+//   const { pixels, size, film: { first, count, fps, width, height, frame } }
+//     = await one.draw({ frame: 1, box: [640, 360], view: { scale: 2, x: 0.5, y: 0.5 }, line: 1 });
+//   const { places } = await one.at({ frame: 1, x: 320, y: 180 });   "film.lua:1", from the front
+//
+// box: the most pixels. view: a part of the film, from x, y, which are shares of its sides; without
+// it the whole. line: only what this line made, if it made anything.
+//
+// What cannot be drawn is an Error with a sentence; its `line` is that of the script, or 0. A worker
+// that takes too long is ended, and the next question begins another one. Nothing is loaded before
+// the first question.
+const SECONDS = 8; // for one picture
+const NO_ENGINE = "This browser has no WebAssembly, or the page forbids it: the picture stays still.";
+
+let worker, module, last = 0;
+const waiting = new Map(); // the questions without an answer, by their numbers
+
+const compiled = async () => {
+  if (typeof WebAssembly !== "object") throw new Error(NO_ENGINE);
+  const answer = await fetch(new URL("celspan.wasm", import.meta.url));
+  if (!answer.ok) throw new Error(`The engine could not be loaded: ${answer.status}.`);
+  const bytes = await answer.arrayBuffer();
+  try { return await WebAssembly.compile(bytes); } catch { throw new Error(NO_ENGINE); }
+};
+
+const settle = (id, how, value) => {
+  const one = waiting.get(id);
+  clearTimeout(one?.timer);
+  waiting.delete(id);
+  one?.[how](value);
+};
+
+/** Ends the worker: what it works at fails, and what waits is asked of the next one. */
+const replace = (id, message) => {
+  worker.terminate();
+  worker = null;
+  settle(id, "reject", new Error(message));
+  for (const one of waiting.values()) send(one.question);
+};
+
+const hear = ({ data: { id, isBegun, said, error } }) => {
+  const one = waiting.get(id);
+  if (!one) return;
+  if (isBegun) {
+    clearTimeout(one.timer);
+    one.timer = setTimeout(() => replace(id,
+      `The script was ended, because its picture took longer than ${SECONDS} seconds.`),
+    SECONDS * 1000);
+  } else if (error === undefined) settle(id, "resolve", said);
+  else settle(id, "reject", new Error(error));
+};
+
+const send = (question) => {
+  if (!worker) {
+    worker = new Worker(new URL("worker.js", import.meta.url), { type: "module" });
+    worker.onmessage = hear;
+    worker.onerror = () => [...waiting.keys()].forEach((id) =>
+      settle(id, "reject", new Error("The engine could not be started.")));
+  }
+  worker.postMessage(question);
+};
+
+const ask = async (question) => {
+  module ??= compiled().catch((error) => { module = null; throw error; });
+  const whole = { id: ++last, module: await module, ...question };
+  return new Promise((resolve, reject) => {
+    waiting.set(whole.id, { question: whole, resolve, reject });
+    send(whole);
+  });
+};
+
+/** Adds the line that a message names. */
+const placed = (error, name) => {
+  const at = error.message.indexOf(`${name}:`), rest = error.message.slice(at + name.length + 1);
+  const [, line, message] = at < 0 ? [] : rest.match(/^(\d+): ([^]*)$/) ?? [];
+  return Object.assign(error, { line: Number(line ?? 0), sentence: message ?? error.message });
+};
+
+export const film = (source, { name = "film.lua" } = {}) => {
+  const put = (call) => async (question) => {
+    try { return await ask({ call, source, name, ...question }); } catch (error) {
+      throw placed(error, name);
+    }
+  };
+  return { draw: put("draw"), at: put("at") };
+};
