@@ -13,6 +13,9 @@ local GAP = 8          -- units
 local MARGIN = 8       -- pixels around the lines
 local LEAST, MOST = 1024, 4096 -- pixels of the longer side
 local FEW = 0.01       -- of lines may be thinner than three pixels
+local NEAR = 64         -- pixels: so far from a point on a line is a place beside it looked for
+local WAYS = { { 0, -1 }, { 0, 1 }, { -1, 0 }, { 1, 0 }, { -0.7, -0.7 }, { 0.7, -0.7 },
+               { -0.7, 0.7 }, { 0.7, 0.7 } }
 local BLACK = "#000000"
 
 -- ---------------------------------------------------------------- the lines as a picture
@@ -150,9 +153,10 @@ function Search:opening(from, to, holds)
   if not u then native.refuse(self.noun .. ": " .. v) end
   local leak = { at = { chart:place(u, v) }, width = width / chart.scale }
   leak.gap = leak.width < math.huge and self:wider(leak.width, holds) or nil
+  local remedy = leak.gap and ("gap = %s would close it"):format(tenth(leak.gap))
+    or "no gap near that closes it: draw a line there" .. (to and ", or leave one out" or "")
   leak.text = ("through an opening of %s at %s; %s"):format(tenth(leak.width), place_text(leak.at),
-    leak.gap and ("gap = %s would close it"):format(tenth(leak.gap))
-      or "no gap near that closes it: draw a line there")
+    remedy)
   return leak
 end
 
@@ -162,10 +166,28 @@ local function is_within(chart, at)
   return x > MARGIN and y > MARGIN and x < chart.width - MARGIN and y < chart.height - MARGIN
 end
 
+--- The nearest place beside the line on which a point lies, as a text; "" where none is near.
+function Search:beside(at)
+  local x, y = self.chart:pixel(at)
+  local areas = self.chart:divide(self.noun, self.gap)
+  for far = 2, NEAR do
+    for _, way in ipairs(WAYS) do
+      local u, v = x + far * way[1], y + far * way[2]
+      local number, is_line = native.areas_at(areas, u, v)
+      if number > 0 and not is_line then
+        return ("; %s is beside it"):format(place_text { self.chart:place(u, v) })
+      end
+    end
+  end
+  return ""
+end
+
 --- Why there is no area at a point: a table with `message`, and of an opening where it is.
 function Search:leak(at, what)
   local place = place_text(at)
-  if what == "line" then return { message = ("the point %s lies on a line"):format(place) } end
+  if what == "line" then
+    return { message = ("the point %s lies on a line%s"):format(place, self:beside(at)) }
+  end
   local leak = self.chart and is_within(self.chart, at)
     and self:opening(at, nil, function(more) return self:find(at, more) end)
   if not leak or leak.width == math.huge then
