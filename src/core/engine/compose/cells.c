@@ -6,10 +6,7 @@
 void cs_cells_init(cs_cells *cells) { *cells = (cs_cells){.gaps = cs_change_none}; }
 
 void cs_cells_finish(cs_cells *cells, cs_memory *memory) {
-  cs_mem_free(memory, cells->cells, cells->cell_capacity * sizeof *cells->cells);
-  cs_mem_free(memory, cells->is_visible, cells->flag_capacity * sizeof *cells->is_visible);
-  cs_mem_free(memory, cells->visible, cells->visible_capacity * sizeof *cells->visible);
-  cs_mem_free(memory, cells->crossing, cells->crossing_capacity * sizeof *cells->crossing);
+  CS_ARRAYS_FREE(memory, cells, cells, crossing);
   *cells = (cs_cells){0};
 }
 
@@ -19,10 +16,10 @@ void cs_cells_forget(cs_cells *cells) {
 }
 
 static celspan_status make_room(cs_cells *cells, celspan_context *context, size_t count) {
-  CS_TRY(CS_RESERVE(context, cells->cells, cells->cell_capacity, count + 1));
-  CS_TRY(CS_RESERVE(context, cells->is_visible, cells->flag_capacity, count + CS_ADVANCE_BATCH));
-  CS_TRY(CS_RESERVE(context, cells->crossing, cells->crossing_capacity, count + 1));
-  return CS_RESERVE(context, cells->visible, cells->visible_capacity, count + 1);
+  CS_TRY(CS_ARRAY_RESERVE(context, cells->cells, count + 1));
+  CS_TRY(CS_ARRAY_RESERVE(context, cells->is_visible, count + CS_ADVANCE_BATCH));
+  CS_TRY(CS_ARRAY_RESERVE(context, cells->crossing, count + 1));
+  return CS_ARRAY_RESERVE(context, cells->visible, count + 1);
 }
 
 void cs_cells_list(cs_cells *cells) {

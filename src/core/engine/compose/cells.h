@@ -56,19 +56,18 @@ typedef struct cs_cells_gap {
 static const cs_set_hash cs_cells_unmade = {UINT64_MAX, UINT64_MAX};
 
 typedef struct cs_cells {
-  cs_cell *cells;   /* count + 1 in use */
-  bool *is_visible; /* by boundary; room for whole batches (engine/sweep/advance.h) */
+  CS_ARRAY(cs_cell, cells);    /* count + 1 in use */
+  CS_ARRAY(bool, is_visible);  /* by boundary; room for whole batches (engine/sweep/advance.h) */
+  CS_ARRAY(uint32_t, visible); /* if is_listed: the visible boundaries */
+  CS_ARRAY(cs_crossing, crossing);
   bool is_listed;
-  uint32_t *visible; /* if is_listed: the visible boundaries */
   size_t visible_count;
   size_t known;   /* the number of cells that are known, from the left */
   cs_change gaps; /* around the cells that were not made at the last update */
   /* The walk is right of the first `place` of `count` boundaries, in the order of `crossing`, and
    * past the deferred changes before the cursor. */
   size_t place, count;
-  cs_crossing *crossing;
   cs_deferred_cursor deferred;
-  size_t cell_capacity, flag_capacity, visible_capacity, crossing_capacity;
 } cs_cells;
 
 void cs_cells_init(cs_cells *cells);

@@ -10,14 +10,6 @@
 
 /* ---------------------------------------------------------------- life */
 
-static celspan_status allocate(cs_composer *composer, void *field, size_t count, size_t size) {
-  void *items = cs_mem_array(composer->context->memory, count, size);
-  if (!items && count > 0)
-    return cs_fail_memory(composer->context);
-  memcpy(field, &items, sizeof items);
-  return CELSPAN_OK;
-}
-
 bool cs_composer_is_flat(const cs_stack *stack) {
   for (size_t i = 0; i < stack->layer_count; i++)
     if (stack->layers[i].kind != CS_LAYER_FLAT)
@@ -33,7 +25,7 @@ static celspan_status make_table(cs_composer *composer) {
   composer->is_flat = cs_composer_is_flat(composer->stack);
   if (!composer->is_flat || !cs_over_table_suits(composer->stack))
     return CELSPAN_OK;
-  CS_TRY(allocate(composer, &composer->table, 1, sizeof(cs_over_table)));
+  CS_TRY(CS_ARRAY_MAKE(composer->context, composer->table, 1));
   return cs_over_table_init(composer->table, composer->context, composer->stack);
 }
 
@@ -52,42 +44,27 @@ celspan_status cs_composer_init(cs_composer *composer, celspan_context *context,
                                 const cs_stack *stack, cs_image_opacity opacity) {
   *composer = (cs_composer){.context = context, .stack = stack, .opacity = opacity};
   size_t words = cs_stack_words(stack), filled = cs_set_filled_count(words);
-  CS_TRY(allocate(composer, &composer->set, words, sizeof(uint64_t)));
-  CS_TRY(allocate(composer, &composer->contributing, words, sizeof(uint64_t)));
-  CS_TRY(allocate(composer, &composer->filled, filled, sizeof(uint8_t)));
-  CS_TRY(allocate(composer, &composer->presences, stack->layer_count, sizeof(cs_presence)));
+  CS_TRY(CS_ARRAY_MAKE(context, composer->set, words));
+  CS_TRY(CS_ARRAY_MAKE(context, composer->contributing, words));
+  CS_TRY(CS_ARRAY_MAKE(context, composer->filled, filled));
+  CS_TRY(CS_ARRAY_MAKE(context, composer->presences, stack->layer_count));
   for (size_t layer = 0; layer < stack->layer_count; layer++)
     composer->presences[layer].rule = stack->rules[layer];
   if (stack->procedure_count > 0)
-    CS_TRY(allocate(composer, &composer->procedure_span_of, stack->layer_count, sizeof(uint32_t)));
-  CS_TRY(allocate(composer, &composer->results, stack->step_depth, sizeof(cs_tree_result)));
-  CS_TRY(allocate(composer, &composer->outers, cs_stack_depth(stack), sizeof(cs_over_outer)));
+    CS_TRY(CS_ARRAY_MAKE(context, composer->procedure_span_of, stack->layer_count));
+  CS_TRY(CS_ARRAY_MAKE(context, composer->results, stack->step_depth));
+  CS_TRY(CS_ARRAY_MAKE(context, composer->outers, cs_stack_depth(stack)));
   CS_TRY(make_table(composer));
-  composer->memo_size = memo_size(stack);
-  return allocate(composer, &composer->memo, composer->memo_size, sizeof(cs_memo));
+  return CS_ARRAY_MAKE(context, composer->memo, memo_size(stack));
 }
 
 void cs_composer_finish(cs_composer *composer) {
   if (!composer->stack)
     return;
   cs_memory *memory = composer->context->memory;
-  const cs_stack *stack = composer->stack;
-  size_t words = cs_stack_words(stack);
-  cs_mem_free(memory, composer->set, words * sizeof(uint64_t));
-  cs_mem_free(memory, composer->contributing, words * sizeof(uint64_t));
-  cs_mem_free(memory, composer->filled, cs_set_filled_count(words) * sizeof(uint8_t));
-  cs_mem_free(memory, composer->presences, stack->layer_count * sizeof(cs_presence));
-  cs_mem_free(memory, composer->procedure_span_of, stack->layer_count * sizeof(uint32_t));
-  cs_mem_free(memory, composer->results, stack->step_depth * sizeof(cs_tree_result));
-  cs_mem_free(memory, composer->outers, cs_stack_depth(stack) * sizeof(cs_over_outer));
   if (composer->table)
     cs_over_table_finish(composer->table);
-  cs_mem_free(memory, composer->table, sizeof(cs_over_table));
-  cs_mem_free(memory, composer->memo, composer->memo_size * sizeof(cs_memo));
-  cs_mem_free(memory, composer->items, composer->item_capacity * sizeof(cs_item));
-  cs_mem_free(memory, composer->gathered, composer->gathered_capacity * sizeof(cs_item));
-  cs_mem_free(memory, composer->procedure_spans,
-              composer->procedure_span_capacity * sizeof(cs_procedure_span));
+  CS_ARRAYS_FREE(memory, composer, set, procedure_spans);
   *composer = (cs_composer){0};
 }
 
@@ -97,7 +74,7 @@ bool cs_composer_begin_row(cs_composer *composer) {
   if (composer->item_count <= ITEM_LIMIT)
     return false;
   composer->item_count = 0;
-  memset(composer->memo, 0, composer->memo_size * sizeof(cs_memo));
+  memset(composer->memo, 0, composer->memo_room.capacity * sizeof(cs_memo));
   return true;
 }
 
@@ -115,8 +92,7 @@ void cs_composer_restart(cs_composer *composer) {
 /* ---------------------------------------------------------------- gathering */
 
 static celspan_status gather_item(cs_composer *composer, uint32_t layer) {
-  CS_TRY(CS_RESERVE(composer->context, composer->gathered, composer->gathered_capacity,
-                    composer->gathered_count + 1));
+  CS_TRY(CS_ARRAY_RESERVE(composer->context, composer->gathered, composer->gathered_count + 1));
   uint32_t procedure_span = composer->stack->layers[layer].kind == CS_LAYER_SCANLINE
                                 ? composer->procedure_span_of[layer]
                                 : 0;
@@ -205,7 +181,7 @@ static celspan_status keep_program(cs_composer *composer, cs_cell *cell) {
   size_t count = composer->gathered_count, needed = composer->item_count + count;
   if (needed < ITEM_LIMIT) /* at once for all items that are kept from row to row */
     needed = ITEM_LIMIT;
-  CS_TRY(CS_RESERVE(composer->context, composer->items, composer->item_capacity, needed));
+  CS_TRY(CS_ARRAY_RESERVE(composer->context, composer->items, needed));
   memcpy(composer->items + composer->item_count, composer->gathered, count * sizeof(cs_item));
   cell->program = (uint32_t)composer->item_count;
   cell->length = (uint32_t)count;
@@ -290,7 +266,7 @@ void cs_composer_cell(cs_composer *composer, cs_cell *out) {
     compose_here(composer, out);
     return;
   }
-  cs_memo *pair = &composer->memo[composer->hash.a & (composer->memo_size - 2)];
+  cs_memo *pair = &composer->memo[composer->hash.a & (composer->memo_room.capacity - 2)];
   for (int i = 0; i < 2; i++)
     if (pair[i].is_used && cs_set_hash_same(pair[i].cell.hash, composer->hash)) {
       *out = pair[i].cell;

@@ -44,25 +44,22 @@ typedef struct cs_composer {
   celspan_context *context; /* the worker's branch */
   const cs_stack *stack;
   cs_image_opacity opacity;
-  uint64_t *set;          /* layers present at the place of the walk */
-  uint8_t *filled;        /* 1 where a word of the set is not 0: see set.h */
-  uint64_t *contributing; /* scratch */
-  cs_presence *presences; /* one for each layer */
+  CS_ARRAY(uint64_t, set);          /* layers present at the place of the walk */
+  CS_ARRAY(uint8_t, filled);        /* 1 where a word of the set is not 0: see set.h */
+  CS_ARRAY(uint64_t, contributing); /* scratch */
+  CS_ARRAY(cs_presence, presences); /* one for each layer */
   /* the span of a layer at the place of the walk; NULL without scan-line layers */
-  uint32_t *procedure_span_of;
-  cs_set_hash hash; /* the hash of the set */
-  cs_tree_result *results;
-  cs_over_outer *outers; /* memory for folds; cs_stack_depth items */
-  bool is_flat;          /* cs_composer_is_flat */
-  cs_over_table *table;  /* NULL if it does not suit the stack */
-  cs_memo *memo;
-  size_t memo_size;
-  cs_item *items; /* the items of all programs in use */
-  size_t item_count, item_capacity;
-  cs_item *gathered; /* scratch: the items of the cell being composed */
-  size_t gathered_count, gathered_capacity;
-  cs_procedure_span *procedure_spans; /* spans of the current row */
-  size_t procedure_span_count, procedure_span_capacity;
+  CS_ARRAY(uint32_t, procedure_span_of);
+  CS_ARRAY(cs_tree_result, results);
+  CS_ARRAY(cs_over_outer, outers); /* memory for folds; cs_stack_depth items */
+  CS_ARRAY(cs_over_table, table);  /* one, or NULL if it does not suit the stack */
+  CS_ARRAY(cs_memo, memo);
+  CS_ARRAY(cs_item, items);                     /* the items of all programs in use */
+  CS_ARRAY(cs_item, gathered);                  /* scratch: the items of the cell being composed */
+  CS_ARRAY(cs_procedure_span, procedure_spans); /* spans of the current row */
+  size_t item_count, gathered_count, procedure_span_count;
+  cs_set_hash hash;     /* the hash of the set */
+  bool is_flat;         /* cs_composer_is_flat */
   uint64_t evaluations; /* cells composed */
   /* the first failure of the row, recorded in the context; kept until the row ends */
   celspan_status failure;

@@ -45,7 +45,7 @@ static celspan_status make_nodes(cs_over_table *table) {
     starts[++table->top] = table->node_count;
     table->node_count += FOUR * group_count(nodes);
   }
-  CS_TRY(CS_MAKE(table->context, table->nodes, table->node_count));
+  CS_TRY(CS_ARRAY_MAKE(table->context, table->nodes, table->node_count));
   for (size_t i = 0; i < table->node_count; i++)
     table->nodes[i] = cs_over_pair_clear;
   for (int tier = 0; tier <= table->top; tier++)
@@ -56,7 +56,7 @@ static celspan_status make_nodes(cs_over_table *table) {
 celspan_status cs_over_table_init(cs_over_table *table, celspan_context *context,
                                   const cs_stack *stack) {
   *table = (cs_over_table){.context = context, .stack = stack};
-  CS_TRY(CS_MAKE(context, table->words, cs_stack_words(stack)));
+  CS_TRY(CS_ARRAY_MAKE(context, table->words, cs_stack_words(stack)));
   table->count = cs_stack_words(stack);
   for (size_t i = 0; i < table->count; i++)
     for (size_t k = 0; k < FOUR; k++)
@@ -70,8 +70,7 @@ void cs_over_table_finish(cs_over_table *table) {
   cs_memory *memory = table->context->memory;
   for (size_t i = 0; i < table->count; i++)
     cs_mem_free(memory, table->words[i].quads, QUADS * CHOICES * sizeof(cs_over_pair));
-  cs_mem_free(memory, table->words, table->count * sizeof *table->words);
-  cs_mem_free(memory, table->nodes, table->node_count * sizeof *table->nodes);
+  CS_ARRAYS_FREE(memory, table, words, nodes);
   *table = (cs_over_table){0};
 }
 

@@ -47,10 +47,9 @@ typedef struct cs_over_word {
 typedef struct cs_over_table {
   celspan_context *context;
   const cs_stack *stack;
-  cs_over_word *words;
-  size_t count;
-  cs_over_pair *nodes; /* the nodes of all tiers */
-  size_t node_count;
+  CS_ARRAY(cs_over_word, words);
+  CS_ARRAY(cs_over_pair, nodes); /* the nodes of all tiers */
+  size_t count, node_count;
   cs_over_pair *tiers[CS_OVER_TABLE_TIERS]; /* in nodes: 0 has the words */
   int top;                                  /* the last tier, which has one node */
 } cs_over_table;

@@ -65,8 +65,8 @@ static celspan_status add_span(cs_procedures *procedures, const cs_procedure *pr
   double b = cs_number_clamp(span->x1 * scale + shift, left, right);
   if (a == b)
     return CELSPAN_OK;
-  CS_TRY(CS_RESERVE(procedures->composer->context, composer->procedure_spans,
-                    composer->procedure_span_capacity, composer->procedure_span_count + 1));
+  CS_TRY(CS_ARRAY_RESERVE(procedures->composer->context, composer->procedure_spans,
+                          composer->procedure_span_count + 1));
   uint32_t number = (uint32_t)composer->procedure_span_count++;
   composer->procedure_spans[number] = (cs_procedure_span){
       span->paint_x0 * scale + shift, span->paint_x1 * scale + shift, paints, span->paint_count};

@@ -19,7 +19,7 @@
  */
 #pragma once
 
-#include "base/context.h"
+#include "base/arrays.h"
 #include "engine/compose/layer.h"
 
 #define CS_STACK_LAYERS ((size_t)10000000)
@@ -54,29 +54,23 @@ typedef struct cs_tree {
 } cs_tree;
 
 typedef struct cs_stack {
-  cs_layer *layers;
-  cs_layer_rule *rules; /* one for each layer */
-  cs_shade *shades;
-  cs_image_layer *images;
-  cs_procedure *procedures;
-  const struct cs_defocused **defocused; /* borrowed from the plan: engine/sample/defocused.h */
-  cs_group *groups;
-  cs_back_light *lights; /* nearest first */
-  cs_step *steps;
-  cs_tree *trees; /* disjoint, rear first */
-  size_t layer_count, layer_capacity, rule_capacity;
-  size_t shade_count, shade_capacity;
-  size_t image_count, image_capacity;
-  size_t procedure_count, procedure_capacity;
-  size_t defocused_count, defocused_capacity;
-  size_t group_count, group_capacity;
+  CS_ARRAY(cs_layer, layers);
+  CS_ARRAY(cs_layer_rule, rules); /* one for each layer */
+  CS_ARRAY(cs_shade, shades);
+  CS_ARRAY(cs_image_layer, images);
+  CS_ARRAY(cs_group, groups);
+  CS_ARRAY(cs_step, steps);
+  CS_ARRAY(cs_tree, trees); /* disjoint, rear first */
+  CS_ARRAY(cs_procedure, procedures);
+  /* borrowed from the plan: engine/sample/defocused.h */
+  CS_ARRAY(const struct cs_defocused *, defocused);
+  CS_ARRAY(cs_back_light, lights); /* nearest first */
+  /* textures that were made for the frame: of its shades, with codes as pigments; pictures of
+   * patterns; owned */
+  CS_ARRAY(celspan_texture *, coded);
+  size_t layer_count, shade_count, image_count, group_count, step_count, tree_count;
+  size_t procedure_count, defocused_count, light_count, coded_count;
   size_t source_count; /* groups with a mode: as many grounds may be inside each other */
-  size_t light_count, light_capacity;
-  size_t step_count, step_capacity;
-  size_t tree_count, tree_capacity;
-  celspan_texture **coded; /* textures that were made for the frame: of its shades, with codes as
-                              pigments; pictures of patterns; owned */
-  size_t coded_count, coded_capacity;
   celspan_space space; /* the space of the numbers in rows */
   bool has_root;       /* group 0 is the whole frame: it is entered in every cell */
   /* the error that gradient spans may have, as a share of full scale; 0: 1/1023 */

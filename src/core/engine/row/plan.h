@@ -31,10 +31,9 @@ typedef struct cs_plan {
   cs_kernel *kernel; /* owned; NULL: rows are not filtered */
   /* The defocused cels: stack.defocused[i] is the grid of defocus[i]. Other plans may own them,
    * too; released by cs_compile_free. */
-  struct cs_defocus **defocus;
-  size_t defocus_count, defocus_capacity;
-  cs_plan_shown *shown; /* from the rear; none in the plan of a drawing */
-  size_t shown_count, shown_capacity;
+  CS_ARRAY(struct cs_defocus *, defocus);
+  CS_ARRAY(cs_plan_shown, shown); /* from the rear; none in the plan of a drawing */
+  size_t defocus_count, shown_count;
   size_t dash_count;    /* in view, of strokes that are not defocused */
   bool stays_on_thread; /* a procedure or a surface in it must be called by the rendering thread */
   bool is_crowded;      /* there were more than allowed: outlines are missing, so it has no rows */

@@ -149,8 +149,8 @@ static celspan_status compile_defocused(cs_compiler *c, const cs_defocus_cel *pl
   cs_stack *stack = &plan->stack;
   const cs_defocus_compiler alone = {compile_alone, c, c->blurs};
   cs_outline box;
-  CS_TRY(CS_COMPILER_APPEND(c, defocused, defocused_count, defocused_capacity));
-  CS_TRY(CS_RESERVE(c->context, plan->defocus, plan->defocus_capacity, plan->defocus_count + 1));
+  CS_TRY(CS_COMPILER_APPEND(c, defocused, defocused_count));
+  CS_TRY(CS_ARRAY_RESERVE(c->context, plan->defocus, plan->defocus_count + 1));
   cs_outline_init(&box);
   cs_defocus *defocus;
   celspan_status status = cs_defocus_layer_create(c->context, place, &alone, &box, &defocus);
@@ -266,7 +266,7 @@ static cs_hash hash_light(const cs_back_light *light) {
 
 static celspan_status note(const cs_compiler *c, cs_plan_shown shown) {
   cs_plan *plan = c->plan;
-  return CS_APPEND(c->context, plan->shown, plan->shown_count, plan->shown_capacity, shown);
+  return CS_ARRAY_APPEND(c->context, plan->shown, plan->shown_count, shown);
 }
 
 /* Notes a cel, and before it its flat back light, if it has one. before: the numbers of chains,

@@ -84,6 +84,6 @@ struct cs_compiler {
 };
 
 /* Room for one more item of an array of the stack. Errors: NO_MEMORY. */
-#define CS_COMPILER_APPEND(compiler, array, count, capacity)                                       \
-  CS_RESERVE((compiler)->context, (compiler)->plan->stack.array, (compiler)->plan->stack.capacity, \
-             (compiler)->plan->stack.count + 1)
+#define CS_COMPILER_APPEND(compiler, array, count)                                                 \
+  CS_ARRAY_RESERVE((compiler)->context, (compiler)->plan->stack.array,                             \
+                   (compiler)->plan->stack.count + 1)

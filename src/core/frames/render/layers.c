@@ -28,7 +28,7 @@ static cs_v4 faded_through(float fade, cs_v4 t) {
 /* Replaces a texture by one whose pigments are codes, which belongs to the stack. */
 static celspan_status code_texture(cs_compiler *c, const celspan_texture **texture) {
   cs_stack *stack = &c->plan->stack;
-  CS_TRY(CS_COMPILER_APPEND(c, coded, coded_count, coded_capacity));
+  CS_TRY(CS_COMPILER_APPEND(c, coded, coded_count));
   celspan_texture *coded;
   CS_TRY(cs_texture_create_coded(c->context, *texture, &coded));
   stack->coded[stack->coded_count++] = coded;
@@ -45,7 +45,7 @@ static celspan_matrix texture_inverse(const cs_layers_texture *place) {
 
 static celspan_status fill_shaded(cs_compiler *c, cs_layer *layer, const cs_layers_texture *place) {
   cs_stack *stack = &c->plan->stack;
-  CS_TRY(CS_COMPILER_APPEND(c, shades, shade_count, shade_capacity));
+  CS_TRY(CS_COMPILER_APPEND(c, shades, shade_count));
   cs_shade *shade = &stack->shades[stack->shade_count];
   *shade = (cs_shade){.texture = place->texture, .inverse = texture_inverse(place)};
   if (c->space == CELSPAN_SPACE_SRGB)
@@ -68,7 +68,7 @@ static celspan_status fill_picture(cs_compiler *c, cs_layer *layer,
     cs_layers_fill_flat(layer, CS_PAINT_CLEAR, 1);
     return CELSPAN_OK;
   }
-  CS_TRY(CS_COMPILER_APPEND(c, images, image_count, image_capacity));
+  CS_TRY(CS_COMPILER_APPEND(c, images, image_count));
   bool is_own = place->ends_at_bounds && !texture->variation->has_box &&
                 texture->variation->wrap == CELSPAN_WRAP_CLEAR;
   celspan_wrap wrap = is_own ? CELSPAN_WRAP_CLAMP : texture->variation->wrap;
@@ -96,8 +96,8 @@ celspan_status cs_layers_append(cs_compiler *c, double fade, celspan_rule rule, 
   if (stack->layer_count == CS_STACK_LAYERS)
     return cs_fail(c->context, CELSPAN_LIMIT, "cel %zu%s: more than %zu primitives in one frame",
                    c->cel, cs_mark_describe(c->mark).text, (size_t)CS_STACK_LAYERS);
-  CS_TRY(CS_COMPILER_APPEND(c, layers, layer_count, layer_capacity));
-  CS_TRY(CS_COMPILER_APPEND(c, rules, layer_count, rule_capacity));
+  CS_TRY(CS_COMPILER_APPEND(c, layers, layer_count));
+  CS_TRY(CS_COMPILER_APPEND(c, rules, layer_count));
   *index = (uint32_t)stack->layer_count++;
   stack->layers[*index] =
       (cs_layer){.group = c->group, .front = c->front, .fade = c->fades_out ? 0 : (float)fade};
@@ -226,7 +226,7 @@ static celspan_status add_scanline(cs_compiler *c, const cs_primitive_data *data
         c->cel, cs_mark_describe(c->mark).text);
   if (m[0] == 0 || m[4] == 0)
     return CELSPAN_OK;
-  CS_TRY(CS_COMPILER_APPEND(c, procedures, procedure_count, procedure_capacity));
+  CS_TRY(CS_COMPILER_APPEND(c, procedures, procedure_count));
   stack->procedures[stack->procedure_count] = (cs_procedure){
       data->scanline, index, m[0] / m[8], m[2] / m[8], m[4] / m[8], m[5] / m[8], c->space};
   stack->layers[index].kind = CS_LAYER_SCANLINE;

@@ -111,7 +111,7 @@ celspan_status cs_lights_add_mattes(cs_compiler *c, const celspan_rostrum *rostr
 /* While compiling, the rear light is first. */
 celspan_status cs_lights_add_flat(cs_compiler *c, celspan_light light) {
   cs_stack *stack = &c->plan->stack;
-  CS_TRY(CS_COMPILER_APPEND(c, lights, light_count, light_capacity));
+  CS_TRY(CS_COMPILER_APPEND(c, lights, light_count));
   stack->lights[stack->light_count++] =
       (cs_back_light){(uint32_t)stack->layer_count, colour_of(light), 1 - light.a};
   return CELSPAN_OK;

@@ -44,7 +44,7 @@ static bool curves_by_itself(const cs_group *group, const cs_group *around) {
  * here. */
 static celspan_status enter(cs_compiler *c, cs_group group) {
   cs_stack *stack = &c->plan->stack;
-  CS_TRY(CS_COMPILER_APPEND(c, groups, group_count, group_capacity));
+  CS_TRY(CS_COMPILER_APPEND(c, groups, group_count));
   const cs_group *around = c->group == CS_STACK_NONE ? NULL : &stack->groups[c->group];
   group.parent = c->group;
   group.first = (uint32_t)stack->layer_count;
@@ -271,7 +271,7 @@ static celspan_status add_operand(cs_compiler *c, const cs_boolean *boolean, siz
 
 static celspan_status append_step(cs_compiler *c, cs_step step) {
   cs_stack *stack = &c->plan->stack;
-  CS_TRY(CS_COMPILER_APPEND(c, steps, step_count, step_capacity));
+  CS_TRY(CS_COMPILER_APPEND(c, steps, step_count));
   stack->steps[stack->step_count++] = step;
   return CELSPAN_OK;
 }
@@ -431,7 +431,7 @@ static celspan_status end_tree(cs_compiler *c, cs_tree tree) {
   cs_stack *stack = &c->plan->stack;
   tree.end = (uint32_t)stack->layer_count;
   tree.step_count = (uint32_t)stack->step_count - tree.step;
-  CS_TRY(CS_COMPILER_APPEND(c, trees, tree_count, tree_capacity));
+  CS_TRY(CS_COMPILER_APPEND(c, trees, tree_count));
   stack->trees[stack->tree_count++] = tree;
   size_t depth = measure_depth(stack, &tree) + 1;
   stack->step_depth = depth > stack->step_depth ? depth : stack->step_depth;

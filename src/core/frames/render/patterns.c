@@ -346,7 +346,7 @@ static celspan_status show_picture(cs_compiler *c, const cs_primitive_data *plan
     wanted.height -= wanted.height > wanted.width ? wanted.height / 2 : 0;
   }
   celspan_texture *texture;
-  CS_TRY(CS_COMPILER_APPEND(c, coded, coded_count, coded_capacity));
+  CS_TRY(CS_COMPILER_APPEND(c, coded, coded_count));
   CS_TRY(find_picture(c, plane, wanted, &texture));
   stack->coded[stack->coded_count++] = celspan_texture_ref(texture);
   return make_rectangle(c, v, texture, out);
