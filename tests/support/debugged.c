@@ -10,7 +10,7 @@ static celspan_span spans[] = {
     {3, 7, CELSPAN_SPAN_GRADIENT, 3, {0, 0.5f, 0, 1}, {0, 0.125f, 0, 0}, NULL, NULL},
     {7, 9, CELSPAN_SPAN_ARRAY, 7, {0}, {0}, pixels, NULL},
 };
-cs_row row = {.spans = spans, .count = 3, .capacity = 3, .varied = {1, 1}};
+cs_row row = {.spans = spans, .count = 3, .varied = {1, 1}};
 
 static uint64_t set[2] = {(uint64_t)1 << 63 | 0x12, 1};
 static const cs_stack stack = {.layer_count = 70};

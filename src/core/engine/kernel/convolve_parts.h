@@ -63,24 +63,22 @@ typedef struct cs_convolve_range {
 typedef struct cs_convolve {
   const cs_kernel *kernel;
   int32_t width;
-  cs_v4d *changes; /* by column: the change of the sum of flat colours */
+  CS_ARRAY(cs_v4d, changes); /* by column: the change of the sum of flat colours */
   /* even shapes, by column: by how much the change differs from the change of the column before */
-  cs_v4d *slopes;
-  cs_v4 *values;                   /* by column: what is added at this column only */
-  float *sums;                     /* separable kernels: scratch */
-  uint64_t *touched;               /* one bit for each column: something changes there */
-  uint32_t *shifts_at, *passed_at; /* lists by column; 0: empty */
-  cs_convolve_range *near;         /* signed kernels: the range of the colours near a column */
-  cs_convolve_term *terms;
-  double *weights; /* the weights of the terms, in the columns that are mixed at a time */
-  cs_convolve_shift *shifts;
-  cs_convolve_passed *passed;
-  cs_convolve_sub_row *sub_rows; /* CS_CONVOLVE_SUB_ROWS a row */
-  size_t term_count, term_capacity, weight_capacity;
-  size_t shift_count, shift_capacity;
-  size_t passed_count, passed_capacity;
-  cs_convolve_range *ranges; /* the ranges of the sub-rows of each row */
-  size_t sub_row_capacity, range_capacity;
+  CS_ARRAY(cs_v4d, slopes);
+  CS_ARRAY(cs_v4, values);           /* by column: what is added at this column only */
+  CS_ARRAY(float, sums);             /* separable kernels: scratch */
+  CS_ARRAY(uint64_t, touched);       /* one bit for each column: something changes there */
+  CS_ARRAY(uint32_t, shifts_at);     /* lists by column; 0: empty */
+  CS_ARRAY(uint32_t, passed_at);     /* the same */
+  CS_ARRAY(cs_convolve_range, near); /* signed kernels: the range of the colours near a column */
+  CS_ARRAY(cs_convolve_term, terms);
+  CS_ARRAY(double, weights); /* of the terms, in the columns that are mixed at a time */
+  CS_ARRAY(cs_convolve_shift, shifts);
+  CS_ARRAY(cs_convolve_passed, passed);
+  CS_ARRAY(cs_convolve_sub_row, sub_rows); /* CS_CONVOLVE_SUB_ROWS a row */
+  CS_ARRAY(cs_convolve_range, ranges);     /* the ranges of the sub-rows of each row */
+  size_t term_count, shift_count, passed_count;
 } cs_convolve;
 
 static inline size_t cs_convolve_words(int32_t width) { return (size_t)width / 64 + 1; }

@@ -39,49 +39,19 @@ static size_t sum_count(const cs_kernel *kernel) { return 2 * (size_t)kernel->st
 /* Errors: NO_MEMORY. */
 static CELSPAN_CHECKED celspan_status init_convolve(cs_convolve *convolve, celspan_context *context,
                                                     const cs_kernel *kernel, int32_t width) {
-  cs_memory *memory = context->memory;
   size_t columns = (size_t)width;
   *convolve = (cs_convolve){.kernel = kernel, .width = width};
-  convolve->changes = cs_mem_array(memory, columns, sizeof *convolve->changes);
-  convolve->touched = cs_mem_array(memory, cs_convolve_words(width), sizeof *convolve->touched);
-  convolve->shifts_at = cs_mem_array(memory, columns, sizeof *convolve->shifts_at);
-  bool is_whole = convolve->changes && convolve->touched && convolve->shifts_at;
-  convolve->values = cs_mem_array(memory, columns, sizeof *convolve->values);
-  is_whole = is_whole && convolve->values;
-  if (kernel->shape != CS_KERNEL_SEPARABLE) {
-    convolve->slopes = cs_mem_array(memory, columns, sizeof *convolve->slopes);
-    is_whole = is_whole && convolve->slopes;
-  } else {
-    convolve->sums = cs_mem_array(memory, sum_count(kernel), sizeof *convolve->sums);
-    is_whole = is_whole && convolve->sums;
-  }
+  CS_TRY(CS_ARRAY_MAKE(context, convolve->changes, columns));
+  CS_TRY(CS_ARRAY_MAKE(context, convolve->touched, cs_convolve_words(width)));
+  CS_TRY(CS_ARRAY_MAKE(context, convolve->shifts_at, columns));
+  CS_TRY(CS_ARRAY_MAKE(context, convolve->values, columns));
   if (kernel->is_signed) {
-    convolve->passed_at = cs_mem_array(memory, columns, sizeof *convolve->passed_at);
-    convolve->near = cs_mem_array(memory, columns, sizeof *convolve->near);
-    is_whole = is_whole && convolve->passed_at && convolve->near;
+    CS_TRY(CS_ARRAY_MAKE(context, convolve->passed_at, columns));
+    CS_TRY(CS_ARRAY_MAKE(context, convolve->near, columns));
   }
-  return is_whole ? CELSPAN_OK : cs_fail_memory(context);
-}
-
-static void finish_convolve(cs_convolve *convolve, cs_memory *memory) {
-  if (!convolve->kernel)
-    return; /* init_convolve has not been called */
-  size_t columns = (size_t)convolve->width;
-  cs_mem_free(memory, convolve->changes, columns * sizeof *convolve->changes);
-  cs_mem_free(memory, convolve->slopes, columns * sizeof *convolve->slopes);
-  cs_mem_free(memory, convolve->values, columns * sizeof *convolve->values);
-  cs_mem_free(memory, convolve->sums, sum_count(convolve->kernel) * sizeof *convolve->sums);
-  cs_mem_free(memory, convolve->touched, cs_convolve_words(convolve->width) * sizeof(uint64_t));
-  cs_mem_free(memory, convolve->shifts_at, columns * sizeof(uint32_t));
-  cs_mem_free(memory, convolve->passed_at, columns * sizeof(uint32_t));
-  cs_mem_free(memory, convolve->near, columns * sizeof *convolve->near);
-  cs_mem_free(memory, convolve->terms, convolve->term_capacity * sizeof *convolve->terms);
-  cs_mem_free(memory, convolve->weights, convolve->weight_capacity * sizeof *convolve->weights);
-  cs_mem_free(memory, convolve->shifts, convolve->shift_capacity * sizeof *convolve->shifts);
-  cs_mem_free(memory, convolve->passed, convolve->passed_capacity * sizeof *convolve->passed);
-  cs_mem_free(memory, convolve->sub_rows, convolve->sub_row_capacity * sizeof *convolve->sub_rows);
-  cs_mem_free(memory, convolve->ranges, convolve->range_capacity * sizeof *convolve->ranges);
-  *convolve = (cs_convolve){0};
+  return kernel->shape == CS_KERNEL_SEPARABLE
+             ? CS_ARRAY_MAKE(context, convolve->sums, sum_count(kernel))
+             : CS_ARRAY_MAKE(context, convolve->slopes, columns);
 }
 
 /* ---------------------------------------------------------------- summing */
@@ -92,9 +62,8 @@ static celspan_status begin_sub_rows(cs_convolve *convolve, celspan_context *con
                                      const cs_retained_row *const *retained_rows, size_t rows,
                                      int32_t y) {
   size_t count = convolve->kernel->is_signed ? rows * CS_CONVOLVE_SUB_ROWS : 0;
-  CS_TRY(CS_RESERVE(context, convolve->sub_rows, convolve->sub_row_capacity, count));
-  CS_TRY(CS_RESERVE(context, convolve->ranges, convolve->range_capacity,
-                    count / CS_CONVOLVE_SUB_ROWS));
+  CS_TRY(CS_ARRAY_RESERVE(context, convolve->sub_rows, count));
+  CS_TRY(CS_ARRAY_RESERVE(context, convolve->ranges, count / CS_CONVOLVE_SUB_ROWS));
   for (size_t i = 0; i < count / CS_CONVOLVE_SUB_ROWS; i++)
     convolve->ranges[i] = (cs_convolve_range){retained_rows[0]->base, retained_rows[0]->base};
   for (size_t i = 0; i < count; i++) {
@@ -338,8 +307,7 @@ static CELSPAN_CHECKED celspan_status convolve_row(cs_convolve *convolve, cs_pai
                                                    size_t count, int32_t y, cs_row *out) {
   CS_TRY(begin_sub_rows(convolve, painter->context, retained_rows, count, y));
   CS_TRY(cs_scatter_rows(convolve, painter, retained_rows, count, y));
-  CS_TRY(CS_RESERVE(painter->context, convolve->weights, convolve->weight_capacity,
-                    convolve->term_count * MIXED));
+  CS_TRY(CS_ARRAY_RESERVE(painter->context, convolve->weights, convolve->term_count * MIXED));
   mixed_column mixed[MIXED];
   summing s = {.convolve = convolve,
                .painter = painter,
@@ -362,17 +330,16 @@ celspan_status cs_filter_init(cs_filter *filter, const cs_kernel *kernel, cs_pai
   size_t count = 2 * (size_t)cs_kernel_extent(kernel) + 1;
   *filter = (cs_filter){
       .kernel = kernel, .painter = painter, .retain = retain, .user = user, .row_count = count};
-  CS_TRY(CS_MAKE(context, filter->rows, count));
-  CS_TRY(CS_MAKE(context, filter->under, count));
+  CS_TRY(CS_ARRAY_MAKE(context, filter->rows, count));
+  CS_TRY(CS_ARRAY_MAKE(context, filter->under, count));
   return init_convolve(&filter->convolve, context, kernel, width);
 }
 
 void cs_filter_finish(cs_filter *filter, cs_memory *memory) {
   for (size_t i = 0; filter->rows && i < filter->row_count; i++)
     cs_retained_finish(&filter->rows[i], memory);
-  cs_mem_free(memory, filter->rows, filter->row_count * sizeof *filter->rows);
-  cs_mem_free(memory, filter->under, filter->row_count * sizeof *filter->under);
-  finish_convolve(&filter->convolve, memory);
+  CS_ARRAYS_FREE(memory, filter, rows, under);
+  CS_ARRAYS_FREE(memory, &filter->convolve, changes, ranges);
   *filter = (cs_filter){0};
 }
 

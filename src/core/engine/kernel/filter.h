@@ -21,9 +21,9 @@ typedef struct cs_filter {
   cs_painter *painter;     /* borrowed */
   cs_filter_retain *retain;
   void *user; /* for retain */
-  cs_retained_row *rows;
-  const cs_retained_row **under; /* the rows under the kernel, from the topmost down */
-  size_t row_count;              /* the number of rows, and of places in under */
+  CS_ARRAY(cs_retained_row, rows);
+  CS_ARRAY(const cs_retained_row *, under); /* the rows under the kernel, from the topmost down */
+  size_t row_count;                         /* the number of rows, and of places in under */
   cs_convolve convolve;
 } cs_filter;
 

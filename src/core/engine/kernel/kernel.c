@@ -18,10 +18,6 @@
 #define PHASES 64 /* places of an edge in a pixel, for radii from 1 on */
 #define PHASES_MOST 1024
 
-static size_t share_count(const cs_kernel *kernel) {
-  return (size_t)(kernel->phases + 1) * (size_t)kernel->stride;
-}
-
 /* ---------------------------------------------------------------- tables */
 
 /* Where sample i of the middles lies, in units of the radius. */
@@ -36,11 +32,6 @@ static void integrate(const double *samples, double *first) {
     running += samples[i];
     first[i + 1] = running / sum; /* ends with exactly 1: the same sum, added in the same order */
   }
-}
-
-static celspan_status make(celspan_context *context, cs_kernel **out) {
-  *out = cs_mem_array(context->memory, 1, sizeof **out);
-  return *out ? CELSPAN_OK : cs_fail_memory(context);
 }
 
 /* The sum of the shares at the columns around an edge at -x, minus x. It is the same for every x if
@@ -103,7 +94,8 @@ static celspan_status finish(celspan_context *context, const double *first, cs_k
     kernel->phases *= 2;
   kernel->columns = cs_number_ceil(kernel->radius_x);
   kernel->stride = (2 * kernel->columns + 2 + 3) / 4 * 4;
-  CS_TRY(CS_MAKE(context, kernel->shares, share_count(kernel)));
+  CS_TRY(CS_ARRAY_MAKE(context, kernel->shares,
+                       (size_t)(kernel->phases + 1) * (size_t)kernel->stride));
   for (int phase = 0; phase <= kernel->phases; phase++)
     for (int32_t k = 0; k < kernel->stride; k++) {
       double x = k - kernel->columns - (double)phase / kernel->phases;
@@ -116,7 +108,7 @@ static celspan_status finish(celspan_context *context, const double *first, cs_k
 celspan_status cs_kernel_create(celspan_context *context, const cs_antialias *antialias,
                                 cs_kernel **out) {
   cs_kernel *kernel;
-  CS_TRY(make(context, &kernel));
+  CS_TRY(CS_MAKE(context, kernel, 1));
   kernel->radius_x = kernel->radius_y = antialias->radius;
   kernel->rows = antialias->rows;
   integrate(antialias->samples, kernel->above);
@@ -132,8 +124,8 @@ celspan_status cs_kernel_create(celspan_context *context, const cs_antialias *an
 }
 
 void cs_kernel_free(cs_kernel *kernel, cs_memory *memory) {
-  if (kernel && kernel->shares)
-    cs_mem_free(memory, kernel->shares, share_count(kernel) * sizeof *kernel->shares);
+  if (kernel)
+    CS_ARRAYS_FREE(memory, kernel, shares, shares);
   cs_mem_free(memory, kernel, sizeof *kernel);
 }
 
@@ -275,7 +267,7 @@ static cs_blur as_upright(const cs_blur *blur) {
 celspan_status cs_kernel_create_defocus(celspan_context *context, const cs_blur *blur,
                                         cs_kernel **out) {
   cs_kernel *kernel;
-  CS_TRY(make(context, &kernel));
+  CS_TRY(CS_MAKE(context, kernel, 1));
   cs_blur upright = as_upright(blur);
   double least = fmin(upright.radius_x, upright.radius_y);
   bool is_separable =

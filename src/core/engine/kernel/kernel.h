@@ -15,6 +15,7 @@
  */
 #pragma once
 
+#include "base/arrays.h"
 #include "model/scene/antialias.h"
 
 /* The blur of a defocused cel, in the samples of a grid. */
@@ -50,7 +51,7 @@ typedef struct cs_kernel {
   /* SEPARABLE: the shares to the right of an edge that lies phase/phases right of a pixel's centre.
    * They begin `columns` columns left of that pixel; there are `stride` of them, after which they
    * are 1. */
-  float *shares;
+  CS_ARRAY(float, shares);
   int phases;
   int32_t columns, stride;
 } cs_kernel;

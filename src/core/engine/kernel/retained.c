@@ -1,11 +1,7 @@
 #include "engine/kernel/retained.h"
 
 void cs_retained_finish(cs_retained_row *retained, cs_memory *memory) {
-  cs_mem_free(memory, retained->edges, retained->edge_capacity * sizeof *retained->edges);
-  cs_mem_free(memory, retained->cells, retained->cell_capacity * sizeof *retained->cells);
-  cs_mem_free(memory, retained->items, retained->item_capacity * sizeof *retained->items);
-  cs_mem_free(memory, retained->procedure_spans,
-              retained->procedure_span_capacity * sizeof *retained->procedure_spans);
+  CS_ARRAYS_FREE(memory, retained, edges, procedure_spans);
   cs_arena_finish(&retained->paints, memory);
   *retained = (cs_retained_row){0};
 }
@@ -39,8 +35,7 @@ static celspan_status copy_cell(cs_retained_row *retained, const cs_composer *co
       *cell = &retained->cells[i];
       return CELSPAN_OK;
     }
-  CS_TRY(CS_RESERVE(composer->context, retained->items, retained->item_capacity,
-                    retained->item_count + of->length));
+  CS_TRY(CS_ARRAY_RESERVE(composer->context, retained->items, retained->item_count + of->length));
   if (of->length > 0)
     memcpy(&retained->items[retained->item_count], &composer->items[of->program],
            of->length * sizeof(cs_item));
@@ -54,8 +49,7 @@ static celspan_status copy_cell(cs_retained_row *retained, const cs_composer *co
 }
 
 static celspan_status copy_cells(cs_retained_row *retained, const cs_composer *composer) {
-  CS_TRY(CS_RESERVE(composer->context, retained->cells, retained->cell_capacity,
-                    2 * retained->edge_count));
+  CS_TRY(CS_ARRAY_RESERVE(composer->context, retained->cells, 2 * retained->edge_count));
   for (size_t i = 0; i < retained->edge_count; i++) {
     CS_TRY(copy_cell(retained, composer, &retained->edges[i].left));
     CS_TRY(copy_cell(retained, composer, &retained->edges[i].right));
@@ -72,8 +66,7 @@ static bool uses_procedures(const cs_retained_row *retained, const cs_composer *
 
 static celspan_status copy_procedure_spans(cs_retained_row *retained, const cs_composer *composer) {
   celspan_context *context = composer->context;
-  CS_TRY(CS_RESERVE(context, retained->procedure_spans, retained->procedure_span_capacity,
-                    composer->procedure_span_count));
+  CS_TRY(CS_ARRAY_RESERVE(context, retained->procedure_spans, composer->procedure_span_count));
   for (size_t i = 0; i < composer->procedure_span_count; i++) {
     cs_procedure_span procedure_span = composer->procedure_spans[i];
     size_t size = procedure_span.paint_count * sizeof *procedure_span.paints;

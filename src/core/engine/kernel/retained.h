@@ -21,14 +21,11 @@ typedef struct cs_retained_row {
   bool is_sealed; /* complete, so that it may be read */
   cs_v4 base;     /* the colour to the left of all edges */
   /* between cells of the row; until the row is sealed, between cells of the composer */
-  cs_border *edges;
-  cs_cell *cells; /* in the order of the edges; colours are 0 where they vary */
-  cs_item *items; /* the items of their programs */
-  cs_procedure_span *procedure_spans;
-  size_t edge_count, edge_capacity;
-  size_t cell_count, cell_capacity;
-  size_t item_count, item_capacity;
-  size_t procedure_span_capacity;
+  CS_ARRAY(cs_border, edges);
+  CS_ARRAY(cs_cell, cells); /* in the order of the edges; colours are 0 where they vary */
+  CS_ARRAY(cs_item, items); /* the items of their programs */
+  CS_ARRAY(cs_procedure_span, procedure_spans);
+  size_t edge_count, cell_count, item_count;
   cs_arena paints; /* the paints of the procedure spans */
 } cs_retained_row;
 
@@ -39,7 +36,7 @@ void cs_retained_begin(cs_retained_row *retained, int32_t row, cs_v4 base);
 static inline CELSPAN_CHECKED celspan_status cs_retained_add(cs_retained_row *retained,
                                                              celspan_context *context,
                                                              const cs_border *edge) {
-  return CS_APPEND(context, retained->edges, retained->edge_count, retained->edge_capacity, *edge);
+  return CS_ARRAY_APPEND(context, retained->edges, retained->edge_count, *edge);
 }
 /* The row is done: copies the data of the composer that its edges need. It is sealed unless the
  * composer has failed. Errors: NO_MEMORY. */

@@ -70,8 +70,8 @@ static inline void shift_term(const cs_scatter *g, int32_t p, const cs_cell *cel
 /* Makes room for steps at `columns` columns. Errors: NO_MEMORY. */
 static celspan_status reserve_shifts(const cs_scatter *g, int32_t columns) {
   cs_convolve *convolve = g->convolve;
-  return CS_RESERVE(g->context, convolve->shifts, convolve->shift_capacity,
-                    convolve->shift_count + 2 * (size_t)columns);
+  return CS_ARRAY_RESERVE(g->context, convolve->shifts,
+                          convolve->shift_count + 2 * (size_t)columns);
 }
 
 /* Adds the step between two colours that are programs. There is room for it. */
@@ -175,8 +175,7 @@ static celspan_status add_passed(cs_scatter *g, const cs_border *edge, int32_t p
   int sub_row = first_sub_row(g, y0), sub_row_end = first_sub_row(g, y1);
   if (sub_row == sub_row_end)
     return CELSPAN_OK;
-  CS_TRY(CS_RESERVE(g->context, convolve->passed, convolve->passed_capacity,
-                    convolve->passed_count + 1));
+  CS_TRY(CS_ARRAY_RESERVE(g->context, convolve->passed, convolve->passed_count + 1));
   cs_convolve_passed *passed = &convolve->passed[convolve->passed_count++];
   *passed = (cs_convolve_passed){.next = convolve->passed_at[p],
                                  .row = g->row,
@@ -493,8 +492,7 @@ static celspan_status find_term(cs_scatter *g, const cs_painter *painter, const 
       *out = (uint32_t)i;
       return CELSPAN_OK;
     }
-  CS_TRY(
-      CS_RESERVE(g->context, convolve->terms, convolve->term_capacity, convolve->term_count + 1));
+  CS_TRY(CS_ARRAY_RESERVE(g->context, convolve->terms, convolve->term_count + 1));
   convolve->terms[convolve->term_count] = (cs_convolve_term){.program = *program};
   *out = (uint32_t)convolve->term_count++;
   return CELSPAN_OK;

@@ -10,7 +10,7 @@ void cs_row_init(cs_row *row) {
 }
 
 void cs_row_finish(cs_row *row, cs_memory *memory) {
-  cs_mem_free(memory, row->spans, row->capacity * sizeof *row->spans);
+  CS_ARRAYS_FREE(memory, row, spans, spans);
   cs_arena_finish(&row->colours, memory);
   *row = (cs_row){0};
 }
@@ -23,7 +23,7 @@ void cs_row_clear(cs_row *row) {
 }
 
 celspan_status cs_row_grow(celspan_context *context, cs_row *row) {
-  return CS_RESERVE(context, row->spans, row->capacity, row->count + 1);
+  return CS_ARRAY_RESERVE(context, row->spans, row->count + 1);
 }
 
 /* Appends a span that is not a single, to be filled in; NULL when there is no memory. It has a
@@ -31,7 +31,7 @@ celspan_status cs_row_grow(celspan_context *context, cs_row *row) {
  * together. */
 static inline celspan_span *append_varied(celspan_context *context, cs_row *row, int32_t x0,
                                           int32_t x1, celspan_span_kind kind) {
-  if (row->count == row->capacity && cs_row_grow(context, row) != CELSPAN_OK)
+  if (row->count == row->spans_room.capacity && cs_row_grow(context, row) != CELSPAN_OK)
     return NULL;
   celspan_span *span = &row->spans[row->count++];
   span->x0 = span->origin = x0;

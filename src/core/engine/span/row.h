@@ -16,6 +16,7 @@
 #pragma once
 
 #include "base/arena.h"
+#include "base/arrays.h"
 #include "base/vector.h"
 
 /* How many spans of a row are not singles. */
@@ -37,8 +38,8 @@ typedef struct cs_row_mark {
 } cs_row_mark;
 
 typedef struct cs_row {
-  celspan_span *spans;
-  size_t count, capacity;
+  CS_ARRAY(celspan_span, spans);
+  size_t count;
   cs_varied varied;
   bool takes_codes; /* arrays may be codes: celspan_sink.takes_codes */
   /* The final place of the codes, from column 0 on; NULL: not known. */
@@ -67,7 +68,7 @@ CELSPAN_CHECKED celspan_status cs_row_grow(celspan_context *context, cs_row *row
 /* Makes room for `count` spans in all. */
 static inline CELSPAN_CHECKED celspan_status cs_row_room(celspan_context *context, cs_row *row,
                                                          size_t count) {
-  return CS_RESERVE(context, row->spans, row->capacity, count);
+  return CS_ARRAY_RESERVE(context, row->spans, count);
 }
 /* Makes room for `more` spans after those that the row has. */
 static inline CELSPAN_CHECKED celspan_status cs_row_reserve(celspan_context *context, cs_row *row,
@@ -87,7 +88,7 @@ static inline celspan_status cs_row_single(celspan_context *context, cs_row *row
       return CELSPAN_OK;
     }
   }
-  if (row->count == row->capacity)
+  if (row->count == row->spans_room.capacity)
     CS_TRY(cs_row_grow(context, row));
   celspan_span *span = &row->spans[row->count++];
   span->x0 = x0;

@@ -2,8 +2,7 @@
 
 void cs_row_queue_finish(cs_row_queue *queue, cs_memory *memory) {
   cs_arena_finish(&queue->arrays, memory);
-  cs_mem_free(memory, queue->spans, queue->span_capacity * sizeof *queue->spans);
-  cs_mem_free(memory, queue->ends, queue->end_capacity * sizeof *queue->ends);
+  CS_ARRAYS_FREE(memory, queue, spans, ends);
   *queue = (cs_row_queue){0};
 }
 
@@ -32,8 +31,8 @@ static celspan_status copy_array(celspan_context *context, cs_row_queue *queue,
 }
 
 static celspan_status reserve(celspan_context *context, cs_row_queue *queue, size_t spans) {
-  CS_TRY(CS_RESERVE(context, queue->spans, queue->span_capacity, spans));
-  return CS_RESERVE(context, queue->ends, queue->end_capacity, queue->count + 1);
+  CS_TRY(CS_ARRAY_RESERVE(context, queue->spans, spans));
+  return CS_ARRAY_RESERVE(context, queue->ends, queue->count + 1);
 }
 
 celspan_status cs_row_queue_add(celspan_context *context, cs_row_queue *queue,
@@ -102,8 +101,7 @@ celspan_status cs_row_queue_add_small(celspan_context *context, cs_row_queue *qu
 }
 
 size_t cs_row_queue_bytes(const cs_row_queue *queue) {
-  return queue->span_capacity * sizeof *queue->spans + queue->end_capacity * sizeof *queue->ends +
-         cs_arena_bytes(&queue->arrays);
+  return CS_ARRAYS_BYTES(queue, spans, ends) + cs_arena_bytes(&queue->arrays);
 }
 
 cs_row_queue_row cs_row_queue_get(const cs_row_queue *queue, size_t row) {

@@ -16,11 +16,10 @@ typedef struct cs_row_queue_end {
 } cs_row_queue_end;
 
 typedef struct cs_row_queue {
-  celspan_span *spans;
-  cs_row_queue_end *ends;
+  CS_ARRAY(celspan_span, spans);
+  CS_ARRAY(cs_row_queue_end, ends);
   cs_arena arrays;
   size_t count; /* rows */
-  size_t span_capacity, end_capacity;
 } cs_row_queue;
 
 typedef struct cs_row_queue_row {

@@ -49,8 +49,7 @@ void cs_active_init(cs_active *active, const cs_boundary_set *set, const cs_cull
 
 void cs_active_finish(cs_active *active, cs_memory *memory) {
   cs_mem_free(memory, active->store.storage, storage_size(active, active->store.capacity));
-  cs_mem_free(memory, active->bends, active->bend_capacity * sizeof *active->bends);
-  cs_mem_free(memory, active->vertices, active->vertex_capacity * sizeof *active->vertices);
+  CS_ARRAYS_FREE(memory, active, bends, vertices);
   *active = (cs_active){0};
 }
 
@@ -353,8 +352,7 @@ celspan_status cs_active_start(celspan_context *context, cs_active *active, doub
 }
 
 static celspan_status note_vertex(celspan_context *context, cs_active *active, double x, double y) {
-  return CS_APPEND(context, active->vertices, active->vertex_count, active->vertex_capacity,
-                   (celspan_point){x, y});
+  return CS_ARRAY_APPEND(context, active->vertices, active->vertex_count, (celspan_point){x, y});
 }
 
 static void widen(cs_bend *noted, double x) {
@@ -363,7 +361,7 @@ static void widen(cs_bend *noted, double x) {
 }
 
 static celspan_status note_bend(celspan_context *context, cs_active *active, const cs_bend *noted) {
-  CS_TRY(CS_RESERVE(context, active->bends, active->bend_capacity, active->bend_count + 1));
+  CS_TRY(CS_ARRAY_RESERVE(context, active->bends, active->bend_count + 1));
   active->bend_of[noted->boundary] = (uint32_t)active->bend_count;
   active->bends[active->bend_count++] = *noted;
   return CELSPAN_OK;

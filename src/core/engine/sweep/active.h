@@ -109,12 +109,11 @@ typedef struct cs_active {
   size_t next;       /* the first chain of the set that has not begun */
   int32_t tile_row;  /* in which the current height lies */
   /* What happens between the heights. */
-  bool rises;        /* x_next is in order, no two alike */
-  cs_bend *bends;    /* in the order of their boundaries */
-  uint32_t *bend_of; /* by boundary: the only index in bends where its bend can be */
-  celspan_point *vertices;
-  size_t bend_count, bend_capacity;
-  size_t vertex_count, vertex_capacity;
+  bool rises;               /* x_next is in order, no two alike */
+  uint32_t *bend_of;        /* by boundary: the only index in bends where its bend can be */
+  CS_ARRAY(cs_bend, bends); /* in the order of their boundaries */
+  CS_ARRAY(celspan_point, vertices);
+  size_t bend_count, vertex_count;
   uint32_t *ended; /* scratch: the boundaries whose segments end */
   cs_active_store store;
 } cs_active;

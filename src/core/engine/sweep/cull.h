@@ -27,6 +27,7 @@
  */
 #pragma once
 
+#include "base/arrays.h"
 #include "model/geometry/boundary.h"
 
 #define CS_CULL_COLUMNS 64 /* tiles in a row of tiles */
@@ -75,15 +76,16 @@ typedef struct cs_deferred {
 } cs_deferred;
 
 typedef struct cs_cull {
-  int32_t tile_rows;          /* 0: nothing is culled, and no other field is set */
-  int32_t tile_height;        /* pixels */
-  cs_deferred *deferred_list; /* by row of tiles, then by x */
-  uint32_t *deferred_starts;  /* tile_rows + 1 */
-  uint32_t *enters; /* by row of tiles: chains kept there that were not in the row above it */
-  uint32_t *enter_starts;
-  bool *kept;          /* for every row of tiles of every chain */
-  size_t *places;      /* by chain: the place in `kept` of its first row of tiles */
-  int32_t *first_rows; /* by chain: the number of its first row of tiles */
+  int32_t tile_rows;                    /* 0: nothing is culled, and no other field is set */
+  int32_t tile_height;                  /* pixels */
+  CS_ARRAY(cs_deferred, deferred_list); /* by row of tiles, then by x */
+  CS_ARRAY(uint32_t, deferred_starts);  /* tile_rows + 1 */
+  /* by row of tiles: chains kept there that were not in the row above it */
+  CS_ARRAY(uint32_t, enters);
+  CS_ARRAY(uint32_t, enter_starts);
+  CS_ARRAY(bool, kept);          /* for every row of tiles of every chain */
+  CS_ARRAY(size_t, places);      /* by chain: the place in `kept` of its first row of tiles */
+  CS_ARRAY(int32_t, first_rows); /* by chain: the number of its first row of tiles */
   size_t deferred_count, enter_count, kept_count, chain_count;
 } cs_cull;
 

@@ -51,10 +51,8 @@ static void find_columns_job(void *user, int worker, int32_t number) {
 
 static celspan_status find_columns(celspan_context *context, cs_cull_grid *grid) {
   cs_cull *cull = grid->cull;
-  grid->columns = cs_mem_array(context->memory, cull->kept_count, sizeof *grid->columns);
-  cull->kept = cs_mem_array(context->memory, cull->kept_count, sizeof *cull->kept);
-  if (cull->kept_count > 0 && (!grid->columns || !cull->kept))
-    return cs_fail_memory(context);
+  CS_TRY(CS_ARRAY_MAKE(context, grid->columns, cull->kept_count));
+  CS_TRY(CS_ARRAY_MAKE(context, cull->kept, cull->kept_count));
   cs_thread_pool_run(grid->desc->workers,
                      (int32_t)((cull->chain_count + JOB_CHAINS - 1) / JOB_CHAINS), find_columns_job,
                      grid);
@@ -107,19 +105,20 @@ static void list_crossing(cs_cull_grid *grid, const uint32_t *by_layer) {
 }
 
 static celspan_status find_crossing(celspan_context *context, cs_cull_grid *grid) {
-  cs_memory *memory = context->memory;
   size_t chains = grid->cull->chain_count, layers = grid->desc->layer_count;
-  uint32_t *starts = cs_mem_array(memory, layers + 1, sizeof *starts);
-  uint32_t *by_layer = cs_mem_array(memory, chains, sizeof *by_layer);
-  grid->crossing = cs_mem_array(memory, grid->cull->kept_count, sizeof *grid->crossing);
-  bool has_room = starts && by_layer && (grid->crossing || grid->cull->kept_count == 0);
-  if (has_room) {
-    list_by_layer(grid, starts, by_layer);
-    list_crossing(grid, by_layer);
+  struct {
+    CS_ARRAY(uint32_t, starts);
+    CS_ARRAY(uint32_t, by_layer);
+  } lists = {0};
+  CS_TRY(CS_ARRAY_MAKE(context, grid->crossing, grid->cull->kept_count));
+  CS_TRY(CS_ARRAY_MAKE(context, lists.starts, layers + 1));
+  celspan_status status = CS_ARRAY_MAKE(context, lists.by_layer, chains);
+  if (status == CELSPAN_OK) {
+    list_by_layer(grid, lists.starts, lists.by_layer);
+    list_crossing(grid, lists.by_layer);
   }
-  cs_mem_free(memory, starts, (layers + 1) * sizeof *starts);
-  cs_mem_free(memory, by_layer, chains * sizeof *by_layer);
-  return has_room ? CELSPAN_OK : cs_fail_memory(context);
+  CS_ARRAYS_FREE(context->memory, &lists, starts, by_layer);
+  return status;
 }
 
 /* ---------------------------------------------------------------- jobs */
@@ -163,7 +162,7 @@ static celspan_status run_jobs(celspan_context *context, const cs_cull_grid *gri
 
 static void free_jobs(jobs *all, cs_memory *memory) {
   for (int32_t i = 0; i < all->count; i++)
-    cs_cull_row_end(all->grid, &all->list[i]);
+    CS_ARRAYS_FREE(memory, &all->list[i], deferred_list, scratch);
   cs_mem_free(memory, all->list, (size_t)all->count * sizeof *all->list);
 }
 
@@ -187,10 +186,7 @@ static celspan_status join_deferred(celspan_context *context, const cs_cull_grid
   uint32_t *starts = cull->deferred_starts;
   sum_up(starts, (size_t)cull->tile_rows);
   cull->deferred_count = starts[cull->tile_rows];
-  cull->deferred_list =
-      cs_mem_array(context->memory, cull->deferred_count, sizeof *cull->deferred_list);
-  if (cull->deferred_count > 0 && !cull->deferred_list)
-    return cs_fail_memory(context);
+  CS_TRY(CS_ARRAY_MAKE(context, cull->deferred_list, cull->deferred_count));
   for (int32_t i = 0; i < all->count; i++) {
     const cs_cull_job *job = &all->list[i];
     for (int32_t row = job->first; row < job->end; row++)
@@ -223,9 +219,7 @@ static celspan_status find_enters(celspan_context *context, const cs_cull_grid *
   list_enters(grid, cull->enter_starts + 1, NULL);
   sum_up(cull->enter_starts, rows);
   cull->enter_count = cull->enter_starts[rows];
-  cull->enters = cs_mem_array(context->memory, cull->enter_count, sizeof *cull->enters);
-  if (cull->enter_count > 0 && !cull->enters)
-    return cs_fail_memory(context);
+  CS_TRY(CS_ARRAY_MAKE(context, cull->enters, cull->enter_count));
   list_enters(grid, cull->enter_starts, cull->enters);
   move_back(cull->enter_starts, rows);
   return CELSPAN_OK;
@@ -234,28 +228,14 @@ static celspan_status find_enters(celspan_context *context, const cs_cull_grid *
 /* ---------------------------------------------------------------- life */
 
 static celspan_status make_room(celspan_context *context, cs_cull_grid *grid) {
-  cs_memory *memory = context->memory;
   cs_cull *cull = grid->cull;
   size_t rows = (size_t)cull->tile_rows, chains = cull->chain_count;
-  cull->places = cs_mem_array(memory, chains, sizeof *cull->places);
-  cull->first_rows = cs_mem_array(memory, chains, sizeof *cull->first_rows);
-  grid->last_rows = cs_mem_array(memory, chains, sizeof *grid->last_rows);
-  cull->deferred_starts = cs_mem_array(memory, rows + 1, sizeof *cull->deferred_starts);
-  cull->enter_starts = cs_mem_array(memory, rows + 1, sizeof *cull->enter_starts);
-  grid->crossing_starts = cs_mem_array(memory, rows + 1, sizeof *grid->crossing_starts);
-  if (!cull->places || !cull->first_rows || !grid->last_rows || !cull->deferred_starts ||
-      !cull->enter_starts || !grid->crossing_starts)
-    return cs_fail_memory(context);
-  return CELSPAN_OK;
-}
-
-static void free_room(cs_cull_grid *grid, cs_memory *memory) {
-  const cs_cull *cull = grid->cull;
-  size_t rows = (size_t)cull->tile_rows;
-  cs_mem_free(memory, grid->columns, cull->kept_count * sizeof *grid->columns);
-  cs_mem_free(memory, grid->crossing, cull->kept_count * sizeof *grid->crossing);
-  cs_mem_free(memory, grid->crossing_starts, (rows + 1) * sizeof *grid->crossing_starts);
-  cs_mem_free(memory, grid->last_rows, cull->chain_count * sizeof *grid->last_rows);
+  CS_TRY(CS_ARRAY_MAKE(context, cull->places, chains));
+  CS_TRY(CS_ARRAY_MAKE(context, cull->first_rows, chains));
+  CS_TRY(CS_ARRAY_MAKE(context, grid->last_rows, chains));
+  CS_TRY(CS_ARRAY_MAKE(context, cull->deferred_starts, rows + 1));
+  CS_TRY(CS_ARRAY_MAKE(context, cull->enter_starts, rows + 1));
+  return CS_ARRAY_MAKE(context, grid->crossing_starts, rows + 1);
 }
 
 static celspan_status cull_rows(celspan_context *context, const cs_cull_grid *grid) {
@@ -292,7 +272,7 @@ celspan_status cs_cull_create(celspan_context *context, const cs_cull_desc *desc
                        .cull = &cull};
   grid.slack = SLACK_TILES * fmin(grid.width / CS_CULL_COLUMNS, cull.tile_height);
   celspan_status status = cull_all(context, &grid);
-  free_room(&grid, context->memory);
+  CS_ARRAYS_FREE(context->memory, &grid, last_rows, crossing_starts);
   if (status == CELSPAN_OK)
     *out = cull;
   else
@@ -301,13 +281,6 @@ celspan_status cs_cull_create(celspan_context *context, const cs_cull_desc *desc
 }
 
 void cs_cull_free(cs_cull *cull, cs_memory *memory) {
-  size_t rows = (size_t)cull->tile_rows + 1;
-  cs_mem_free(memory, cull->deferred_list, cull->deferred_count * sizeof *cull->deferred_list);
-  cs_mem_free(memory, cull->deferred_starts, rows * sizeof *cull->deferred_starts);
-  cs_mem_free(memory, cull->enters, cull->enter_count * sizeof *cull->enters);
-  cs_mem_free(memory, cull->enter_starts, rows * sizeof *cull->enter_starts);
-  cs_mem_free(memory, cull->kept, cull->kept_count * sizeof *cull->kept);
-  cs_mem_free(memory, cull->places, cull->chain_count * sizeof *cull->places);
-  cs_mem_free(memory, cull->first_rows, cull->chain_count * sizeof *cull->first_rows);
+  CS_ARRAYS_FREE(memory, cull, deferred_list, first_rows);
   *cull = (cs_cull){0};
 }

@@ -28,11 +28,11 @@ typedef struct cs_cull_grid {
   double slack; /* pixels: how far a chord may be from the curve that it replaces */
   cs_cull *cull;
   /* By chain: its last row of tiles; less than its first one where it is outside the frame. */
-  int32_t *last_rows;
-  cs_cull_columns *columns; /* indexed as cull->kept */
+  CS_ARRAY(int32_t, last_rows);
+  CS_ARRAY(cs_cull_columns, columns); /* indexed as cull->kept */
   /* By row of tiles: the chains that cross it, from the layer nearest the camera to the rear. */
-  cs_cull_crossing *crossing;
-  uint32_t *crossing_starts; /* tile_rows + 1 */
+  CS_ARRAY(cs_cull_crossing, crossing);
+  CS_ARRAY(uint32_t, crossing_starts); /* tile_rows + 1 */
 } cs_cull_grid;
 
 /* One thread culls the rows of tiles first..end - 1. */
@@ -40,12 +40,12 @@ typedef struct cs_cull_job {
   celspan_context context; /* a branch */
   celspan_status status;
   int32_t first, end;
-  cs_deferred *deferred_list; /* by row of tiles, then in the order they were found */
-  size_t deferred_count, deferred_capacity;
-  struct cs_cull_veil *veils;  /* scratch: one more than groups may be around a layer */
-  cs_cull_presence *presences; /* scratch, of a tree's layers */
-  uint64_t *painted;           /* scratch, likewise */
-  void *scratch;               /* the scratch of desc->scratch_size bytes */
+  CS_ARRAY(cs_deferred, deferred_list);  /* by row of tiles, then in the order they were found */
+  CS_ARRAY(struct cs_cull_veil, veils);  /* scratch: one more than groups may be around a layer */
+  CS_ARRAY(cs_cull_presence, presences); /* scratch, of a tree's layers */
+  CS_ARRAY(uint64_t, painted);           /* scratch, likewise */
+  CS_ARRAY(unsigned char, scratch);      /* the scratch of desc->scratch_size bytes */
+  size_t deferred_count;
 } cs_cull_job;
 
 static inline double cs_cull_grid_top(const cs_cull_grid *grid, int32_t row) {
@@ -70,4 +70,3 @@ CELSPAN_CHECKED celspan_status cs_cull_row_walk(const cs_cull_grid *grid, cs_cul
                                                 int32_t row);
 /* Room for the scratch of a job. Errors: NO_MEMORY; the job must be freed then, too. */
 CELSPAN_CHECKED celspan_status cs_cull_row_begin(const cs_cull_grid *grid, cs_cull_job *job);
-void cs_cull_row_end(const cs_cull_grid *grid, cs_cull_job *job);

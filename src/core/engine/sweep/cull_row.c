@@ -239,8 +239,7 @@ celspan_status cs_cull_row_walk(const cs_cull_grid *grid, cs_cull_job *job, int3
   w.veil->live = ~(uint64_t)0;
   w.veil->dimmed = 0;
   w.veil->group = CS_CULL_NONE;
-  CS_TRY(
-      CS_RESERVE(&job->context, job->deferred_list, job->deferred_capacity, before + (end - from)));
+  CS_TRY(CS_ARRAY_RESERVE(&job->context, job->deferred_list, before + (end - from)));
   for (uint32_t next; from < end; from = next) {
     uint32_t layer = layer_of(&w, from);
     if (find_tree(&w, layer)) {
@@ -283,25 +282,9 @@ static size_t veil_room(const cs_cull_desc *desc) {
 
 celspan_status cs_cull_row_begin(const cs_cull_grid *grid, cs_cull_job *job) {
   const cs_cull_desc *desc = grid->desc;
-  cs_memory *memory = job->context.memory;
   size_t room = tree_room(desc);
-  job->veils = cs_mem_array(memory, veil_room(desc), sizeof *job->veils);
-  job->presences = cs_mem_array(memory, room, sizeof *job->presences);
-  job->painted = cs_mem_array(memory, room, sizeof *job->painted);
-  job->scratch = cs_mem_array(memory, desc->scratch_size, 1);
-  if (!job->veils || (room > 0 && (!job->presences || !job->painted)) ||
-      (desc->scratch_size > 0 && !job->scratch))
-    return cs_fail_memory(&job->context);
-  return CELSPAN_OK;
-}
-
-void cs_cull_row_end(const cs_cull_grid *grid, cs_cull_job *job) {
-  const cs_cull_desc *desc = grid->desc;
-  cs_memory *memory = job->context.memory;
-  size_t room = tree_room(desc);
-  cs_mem_free(memory, job->veils, veil_room(desc) * sizeof *job->veils);
-  cs_mem_free(memory, job->presences, room * sizeof *job->presences);
-  cs_mem_free(memory, job->painted, room * sizeof *job->painted);
-  cs_mem_free(memory, job->scratch, desc->scratch_size);
-  cs_mem_free(memory, job->deferred_list, job->deferred_capacity * sizeof *job->deferred_list);
+  CS_TRY(CS_ARRAY_MAKE(&job->context, job->veils, veil_room(desc)));
+  CS_TRY(CS_ARRAY_MAKE(&job->context, job->presences, room));
+  CS_TRY(CS_ARRAY_MAKE(&job->context, job->painted, room));
+  return CS_ARRAY_MAKE(&job->context, job->scratch, desc->scratch_size);
 }
