@@ -15,12 +15,9 @@ void cs_crowd_init(cs_crowd *crowd) { *crowd = (cs_crowd){.pixel.solver.isa = cs
 
 void cs_crowd_finish(cs_crowd *crowd, cs_memory *memory) {
   cs_crowd_pixel_finish(&crowd->pixel, memory);
-  cs_mem_free(memory, crowd->segments, crowd->segment_capacity * sizeof *crowd->segments);
-  cs_mem_free(memory, crowd->columns, crowd->column_capacity * sizeof *crowd->columns);
-  cs_mem_free(memory, crowd->order, crowd->order_capacity * sizeof *crowd->order);
-  cs_mem_free(memory, crowd->here.list, crowd->here.capacity * sizeof *crowd->here.list);
-  cs_mem_free(memory, crowd->next.list, crowd->next.capacity * sizeof *crowd->next.list);
-  cs_mem_free(memory, crowd->crossings, crowd->crossing_capacity * sizeof *crowd->crossings);
+  CS_ARRAYS_FREE(memory, crowd, segments, crossings);
+  CS_ARRAYS_FREE(memory, &crowd->here, list, list);
+  CS_ARRAYS_FREE(memory, &crowd->next, list, list);
   *crowd = (cs_crowd){0};
 }
 
@@ -81,8 +78,7 @@ static celspan_status add_segment(const drawing *d, uint32_t edge, int32_t p, co
                            edge,
                            *column};
   *column = (uint32_t)crowd->segment_count;
-  return CS_APPEND(d->context, crowd->segments, crowd->segment_count, crowd->segment_capacity,
-                   made);
+  return CS_ARRAY_APPEND(d->context, crowd->segments, crowd->segment_count, made);
 }
 
 /* The column of x, for a line that continues from there to the right or (leans < 0) to the left.
@@ -120,7 +116,7 @@ static celspan_status cut_piece(const drawing *d, uint32_t edge, celspan_point a
 static celspan_status cut_members(const drawing *d) {
   cs_crowd *crowd = d->crowd;
   size_t columns = (size_t)(d->end - d->first) + 1;
-  CS_TRY(CS_RESERVE(d->context, crowd->columns, crowd->column_capacity, columns));
+  CS_TRY(CS_ARRAY_RESERVE(d->context, crowd->columns, columns));
   memset(crowd->columns, 0xff, columns * sizeof *crowd->columns);
   crowd->segment_count = 0;
   for (size_t i = 0; i < d->sweep->count + d->sweep->begin_count; i++) {
@@ -145,7 +141,7 @@ static celspan_status order_column(const drawing *d, int32_t p) {
   crowd->order_count = 0;
   for (uint32_t i = crowd->columns[p - d->first + 1]; i != NOBODY; i = crowd->segments[i].next) {
     uint64_t key = (uint64_t)(UINT32_MAX - crowd->segments[i].edge / 2) << 32 | i;
-    CS_TRY(CS_APPEND(d->context, crowd->order, crowd->order_count, crowd->order_capacity, key));
+    CS_TRY(CS_ARRAY_APPEND(d->context, crowd->order, crowd->order_count, key));
   }
   sort_keys(crowd->order, crowd->order_count);
   return CELSPAN_OK;
@@ -239,8 +235,8 @@ static celspan_status pass_group(const drawing *d, const group *g) {
     if (crowd->next.list[at].change != 0 && crowd->next.list[at].y < CS_CROWD_UNIT)
       crowd->next.list[crowd->next.count++] = crowd->next.list[at];
   return crossed == 0 ? CELSPAN_OK
-                      : CS_APPEND(d->context, crowd->crossings, crowd->crossing_count,
-                                  crowd->crossing_capacity, (cs_crossing){g->layer, crossed});
+                      : CS_ARRAY_APPEND(d->context, crowd->crossings, crowd->crossing_count,
+                                        (cs_crossing){g->layer, crossed});
 }
 
 static inline bool is_inside(const cs_presence *presence, int32_t winding) {
@@ -266,7 +262,7 @@ static celspan_status pass_column(drawing *d, int32_t p, cs_v4 *colour, bool *is
   cs_crowd *crowd = d->crowd;
   cs_crowd_pixel *pixel = &crowd->pixel;
   size_t most = crowd->order_count + crowd->here.count, from = crowd->crossing_count;
-  CS_TRY(CS_RESERVE(d->context, crowd->next.list, crowd->next.capacity, 2 * most + 2));
+  CS_TRY(CS_ARRAY_RESERVE(d->context, crowd->next.list, 2 * most + 2));
   CS_TRY(cs_crowd_pixel_begin(pixel, most));
   crowd->next.count = 0;
   *is_cell = true;

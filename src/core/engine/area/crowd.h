@@ -36,20 +36,19 @@ typedef struct cs_crowd_step {
 } cs_crowd_step;
 
 typedef struct cs_crowd_steps {
-  cs_crowd_step *list; /* the nearest layers first */
-  size_t count, capacity;
+  CS_ARRAY(cs_crowd_step, list); /* the nearest layers first */
+  size_t count;
 } cs_crowd_steps;
 
 /* The memory that a worker keeps for crowds. */
 typedef struct cs_crowd {
   cs_crowd_pixel pixel;
-  cs_crowd_segment *segments;
-  uint32_t *columns;         /* by column, from the one left of the interval: its first segment */
-  uint64_t *order;           /* the segments of a column, the nearest layers first */
-  cs_crowd_steps here, next; /* at the left side of a column, and of the next one */
-  cs_crossing *crossings;    /* of the composer */
-  size_t segment_count, segment_capacity, column_capacity, order_count, order_capacity;
-  size_t crossing_count, crossing_capacity;
+  CS_ARRAY(cs_crowd_segment, segments);
+  CS_ARRAY(uint32_t, columns); /* by column, from the one left of the interval: its first segment */
+  CS_ARRAY(uint64_t, order);   /* the segments of a column, the nearest layers first */
+  CS_ARRAY(cs_crossing, crossings); /* of the composer */
+  cs_crowd_steps here, next;        /* at the left side of a column, and of the next one */
+  size_t segment_count, order_count, crossing_count;
 } cs_crowd;
 
 void cs_crowd_init(cs_crowd *crowd);

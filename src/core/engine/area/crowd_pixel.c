@@ -1,9 +1,9 @@
 #include "engine/area/crowd_pixel.h"
 
 void cs_crowd_pixel_finish(cs_crowd_pixel *pixel, cs_memory *memory) {
-  cs_mem_free(memory, pixel->whole.layers, pixel->whole.capacity * sizeof *pixel->whole.layers);
-  cs_crowd_solver_finish(&pixel->solver, memory);
-  cs_mem_free(memory, pixel->between, pixel->between_capacity * sizeof *pixel->between);
+  CS_ARRAYS_FREE(memory, &pixel->whole, layers, layers);
+  CS_ARRAYS_FREE(memory, &pixel->solver, lines, numbers);
+  CS_ARRAYS_FREE(memory, pixel, between, between);
 }
 
 /* Lane 3 is 0 behind any layer. */
@@ -25,7 +25,7 @@ static bool learn(cs_crowd_pixel *pixel) {
   uint32_t end = w->count > 0 ? w->layers[w->count - 1] : (uint32_t)composer->stack->layer_count;
   uint32_t layer = cs_set_below(composer->set, composer->filled, end);
   w->is_all = layer == CS_STACK_NONE;
-  if (!w->is_all && CS_APPEND(composer->context, w->layers, w->count, w->capacity, layer)) {
+  if (!w->is_all && CS_ARRAY_APPEND(composer->context, w->layers, w->count, layer)) {
     pixel->failure = CELSPAN_NO_MEMORY;
     w->is_all = true;
   }
@@ -59,7 +59,7 @@ void cs_crowd_pixel_change(cs_crowd_pixel *pixel, uint32_t layer) {
     for (size_t k = place + 1; k < w->count; k++)
       w->layers[k - 1] = w->layers[k];
     w->count--;
-  } else if (CS_APPEND(pixel->composer->context, w->layers, w->count, w->capacity, layer)) {
+  } else if (CS_ARRAY_APPEND(pixel->composer->context, w->layers, w->count, layer)) {
     pixel->failure = CELSPAN_NO_MEMORY;
   } else {
     for (size_t k = w->count - 1; k > place; k--)
@@ -102,9 +102,9 @@ celspan_status cs_crowd_pixel_begin(cs_crowd_pixel *pixel, size_t most) {
   pixel->light = cs_v4_all(0);
   pixel->through = cs_v4_all(1);
   pixel->is_hidden = false;
-  CS_TRY(CS_RESERVE(context, pixel->solver.lines, pixel->solver.line_capacity, 2 * most));
-  CS_TRY(CS_RESERVE(context, pixel->between, pixel->between_capacity, most + 1));
-  return CS_RESERVE(context, pixel->solver.partials, pixel->solver.partial_capacity, most);
+  CS_TRY(CS_ARRAY_RESERVE(context, pixel->solver.lines, 2 * most));
+  CS_TRY(CS_ARRAY_RESERVE(context, pixel->between, most + 1));
+  return CS_ARRAY_RESERVE(context, pixel->solver.partials, most);
 }
 
 /* The least and the greatest winding of a layer in the pixel. */

@@ -15,8 +15,8 @@
 /* The layers that cover whole pixels, the nearest first, as far as they are known: those that can
  * be reached. */
 typedef struct cs_crowd_whole {
-  uint32_t *layers;
-  size_t count, capacity;
+  CS_ARRAY(uint32_t, layers);
+  size_t count;
   bool is_all;
 } cs_crowd_whole;
 
@@ -24,8 +24,8 @@ typedef struct cs_crowd_pixel {
   const cs_composer *composer;
   cs_crowd_solver solver;
   cs_crowd_whole whole;
-  cs_v4 *between; /* light of the whole layers between partial ones; one more than these */
-  size_t between_capacity;
+  /* light of the whole layers between partial ones; one more than these */
+  CS_ARRAY(cs_v4, between);
   size_t place;         /* of the walk through the whole layers */
   cs_v4 light, through; /* of whole layers since the last partial one; and all of them */
   bool is_hidden;

@@ -7,14 +7,6 @@
 #define MANY 64 /* lines that are too many to be followed at all; and the most even slabs */
 #define EVEN 16 /* even slabs where no layer hides more than half */
 
-void cs_crowd_solver_finish(cs_crowd_solver *solver, cs_memory *memory) {
-  cs_mem_free(memory, solver->lines, solver->line_capacity * sizeof *solver->lines);
-  cs_mem_free(memory, solver->partials, solver->partial_capacity * sizeof *solver->partials);
-  cs_mem_free(memory, solver->heights, solver->height_capacity * sizeof *solver->heights);
-  cs_mem_free(memory, solver->passages, solver->passage_capacity * sizeof *solver->passages);
-  cs_mem_free(memory, solver->numbers, solver->number_capacity * sizeof *solver->numbers);
-}
-
 /* ---------------------------------------------------------------- sets */
 
 /* Adds one set of partial layers, those whose sum is inside, with its share of the pixel. */
@@ -138,7 +130,7 @@ static bool is_grey(const cs_crowd_solver *solver) {
 
 static celspan_status solve_weak(cs_crowd_solver *solver, celspan_context *context) {
   size_t room = (solver->line_count + CS_CROWD_SUMS) / CS_CROWD_SUMS * CS_CROWD_SUMS;
-  CS_TRY(CS_RESERVE(context, solver->numbers, solver->number_capacity, 6 * room));
+  CS_TRY(CS_ARRAY_RESERVE(context, solver->numbers, 6 * room));
   float *at = memset(solver->numbers, 0, 6 * room * sizeof *solver->numbers);
   const cs_crowd_numbers n = {at,           at + room, at + 2 * room, at + 3 * room, at + 4 * room,
                               at + 5 * room};
@@ -230,8 +222,8 @@ static void add_slab(cs_crowd_solver *solver, double top, double foot) {
 
 static celspan_status solve_strong(cs_crowd_solver *solver, celspan_context *context) {
   size_t lines = solver->line_count, most = 3 * MANY + 1;
-  CS_TRY(CS_RESERVE(context, solver->heights, solver->height_capacity, most));
-  CS_TRY(CS_RESERVE(context, solver->passages, solver->passage_capacity, lines));
+  CS_TRY(CS_ARRAY_RESERVE(context, solver->heights, most));
+  CS_TRY(CS_ARRAY_RESERVE(context, solver->passages, lines));
   size_t count = lines > FEW ? cut_evenly(solver) : cut_exactly(solver);
   for (size_t k = 1; k < count; k++)
     if (solver->heights[k] > solver->heights[k - 1])

@@ -49,16 +49,14 @@ typedef struct cs_crowd_passage {
 
 typedef struct cs_crowd_solver {
   cs_isa isa;
-  cs_crowd_line *lines;
-  cs_crowd_partial *partials; /* the nearest first */
-  double *heights;            /* of slabs */
-  cs_crowd_passage *passages;
-  float *numbers; /* storage of cs_crowd_numbers */
+  CS_ARRAY(cs_crowd_line, lines);
+  CS_ARRAY(cs_crowd_partial, partials); /* the nearest first */
+  CS_ARRAY(double, heights);            /* of slabs */
+  CS_ARRAY(cs_crowd_passage, passages);
+  CS_ARRAY(float, numbers); /* storage of cs_crowd_numbers */
   size_t line_count, partial_count;
-  size_t line_capacity, partial_capacity, height_capacity, passage_capacity, number_capacity;
 } cs_crowd_solver;
 
-void cs_crowd_solver_finish(cs_crowd_solver *solver, cs_memory *memory);
 /* Solves at least one partial layer: sets `reached` and `after` of each. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_crowd_solver_solve(cs_crowd_solver *solver,
                                                      celspan_context *context);

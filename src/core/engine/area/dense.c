@@ -11,9 +11,7 @@
 #define DIGIT (1 << DIGIT_BITS)
 
 void cs_dense_finish(cs_dense *dense, cs_memory *memory) {
-  cs_mem_free(memory, dense->places, dense->place_capacity * sizeof *dense->places);
-  cs_mem_free(memory, dense->spare, dense->spare_capacity * sizeof *dense->spare);
-  cs_mem_free(memory, dense->sums, dense->sum_capacity * sizeof *dense->sums);
+  CS_ARRAYS_FREE(memory, dense, places, sums);
   *dense = (cs_dense){0};
 }
 
@@ -188,9 +186,9 @@ static celspan_status draw_means(const drawing *d, int all, const cs_cell *right
 
 static celspan_status reserve(const drawing *d) {
   cs_dense *dense = d->dense;
-  CS_TRY(CS_RESERVE(d->context, dense->places, dense->place_capacity, TOGETHER * d->members));
-  CS_TRY(CS_RESERVE(d->context, dense->spare, dense->spare_capacity, d->members));
-  return CS_RESERVE(d->context, dense->sums, dense->sum_capacity, (size_t)d->count);
+  CS_TRY(CS_ARRAY_RESERVE(d->context, dense->places, TOGETHER * d->members));
+  CS_TRY(CS_ARRAY_RESERVE(d->context, dense->spare, d->members));
+  return CS_ARRAY_RESERVE(d->context, dense->sums, (size_t)d->count);
 }
 
 celspan_status cs_dense_draw(cs_dense *dense, cs_local_sweep *sweep, cs_extent extent,

@@ -29,11 +29,9 @@ typedef struct cs_dense_place {
 } cs_dense_place;
 
 typedef struct cs_dense {
-  cs_dense_place *places; /* the places of several sub-rows, room for all members each */
-  cs_dense_place *spare;  /* room for all members */
-  size_t place_capacity, spare_capacity;
-  cs_sum4 *sums; /* one for each pixel of the interval */
-  size_t sum_capacity;
+  CS_ARRAY(cs_dense_place, places); /* of several sub-rows, room for all members each */
+  CS_ARRAY(cs_dense_place, spare);  /* room for all members */
+  CS_ARRAY(cs_sum4, sums);          /* one for each pixel of the interval */
 } cs_dense;
 
 void cs_dense_finish(cs_dense *dense, cs_memory *memory);

@@ -4,16 +4,11 @@
 
 #include <string.h>
 
-/* Bytes of one boundary over all arrays. */
+/* Bytes of one boundary over all arrays; a gap before them aligns the arrays. */
 #define ITEM_SIZE (2 * sizeof(double) + 4 * sizeof(float) + 2 * sizeof(int32_t) + sizeof(bool))
 
-/* Bytes of the arrays of `capacity` boundaries and of the gap before them, which aligns them. */
-static size_t storage_size(size_t capacity) {
-  return capacity > 0 ? capacity * ITEM_SIZE + CS_WIDE_LINE : 0;
-}
-
 void cs_edges_finish(cs_edges *edges, cs_memory *memory) {
-  cs_mem_free(memory, edges->storage, storage_size(edges->capacity));
+  CS_ARRAYS_FREE(memory, edges, storage, storage);
   *edges = (cs_edges){0};
 }
 
@@ -23,17 +18,13 @@ static celspan_status make_room(celspan_context *context, cs_edges *edges, size_
   if (count <= edges->capacity)
     return CELSPAN_OK;
   size_t wanted = 2 * count;
-  void *storage = cs_mem_array(context->memory, 1, storage_size(wanted));
-  if (!storage)
-    return cs_fail_memory(context);
-  double *doubles = cs_wide_align(storage);
-  cs_mem_free(context->memory, edges->storage, storage_size(edges->capacity));
-  *edges = (cs_edges){.isa = cs_isa_best(),
-                      .low = doubles,
-                      .high = doubles + wanted,
-                      .one = (float *)(doubles + 2 * wanted),
-                      .storage = storage,
-                      .capacity = wanted};
+  edges->capacity = 0;
+  CS_TRY(CS_ARRAY_MAKE(context, edges->storage, wanted * ITEM_SIZE + CS_WIDE_LINE));
+  edges->capacity = wanted;
+  edges->isa = cs_isa_best();
+  edges->low = cs_wide_align(edges->storage);
+  edges->high = edges->low + wanted;
+  edges->one = (float *)(edges->high + wanted);
   edges->two = edges->one + wanted;
   edges->second = edges->two + wanted;
   edges->fall = edges->second + wanted;

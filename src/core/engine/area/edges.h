@@ -33,9 +33,9 @@ typedef struct cs_edges {
   float *second, *fall;
   /* the columns that the boundary crosses; empty if it lies on a pixel's edge */
   int32_t *first, *end;
-  bool *is_bent;   /* the boundary has vertices in the row */
-  void *storage;   /* one allocation for all the arrays above */
-  size_t capacity; /* the capacity of each array */
+  bool *is_bent;                    /* the boundary has vertices in the row */
+  CS_ARRAY(unsigned char, storage); /* one allocation for all the arrays above */
+  size_t capacity;                  /* the capacity of each array */
 } cs_edges;
 
 void cs_edges_finish(cs_edges *edges, cs_memory *memory);

@@ -11,9 +11,7 @@
 #define ITEM_SIZE (sizeof(cs_active_edge) + 4 * sizeof(double) + 3 * sizeof(uint32_t))
 
 void cs_intersections_finish(cs_intersections *intersections, cs_memory *memory) {
-  cs_mem_free(memory, intersections->storage, intersections->edge_capacity * ITEM_SIZE);
-  cs_mem_free(memory, intersections->intersections,
-              intersections->capacity * sizeof *intersections->intersections);
+  CS_ARRAYS_FREE(memory, intersections, storage, intersections);
   *intersections = (cs_intersections){0};
 }
 
@@ -23,11 +21,9 @@ celspan_status cs_intersections_reserve(cs_intersections *intersections, celspan
   if (edges <= intersections->edge_capacity)
     return CELSPAN_OK;
   size_t wanted = (2 * edges + BATCH - 1) / BATCH * BATCH;
-  void *storage = cs_mem_array(context->memory, wanted, ITEM_SIZE);
-  if (!storage)
-    return cs_fail_memory(context);
-  cs_mem_free(context->memory, intersections->storage, intersections->edge_capacity * ITEM_SIZE);
-  intersections->storage = intersections->edges = storage;
+  intersections->edge_capacity = 0;
+  CS_TRY(CS_ARRAY_MAKE(context, intersections->storage, wanted * ITEM_SIZE));
+  intersections->edges = (cs_active_edge *)intersections->storage;
   intersections->top = (double *)(intersections->edges + wanted);
   intersections->foot = intersections->top + wanted;
   intersections->shares = intersections->foot + wanted;
@@ -136,8 +132,7 @@ static inline void move_to(cs_active_edge *edge, double x, double y) {
  * the step above the intersection; y: the height of the intersection. */
 static celspan_status swap_places(cs_intersections *m, celspan_context *context, size_t place,
                                   double share, double y) {
-  if (m->count == m->capacity)
-    CS_TRY(CS_RESERVE(context, m->intersections, m->capacity, m->count + 1));
+  CS_TRY(CS_ARRAY_RESERVE(context, m->intersections, m->count + 1));
   uint32_t index = (uint32_t)m->count++, left = m->order[place], right = m->order[place + 1];
   double left_x = m->top[place] + (m->foot[place] - m->top[place]) * share;
   double right_x = m->top[place + 1] + (m->foot[place + 1] - m->top[place + 1]) * share;

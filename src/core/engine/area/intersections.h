@@ -19,7 +19,7 @@
  */
 #pragma once
 
-#include "base/context.h"
+#include "base/arrays.h"
 
 #define CS_INTERSECTIONS_NONE UINT32_MAX
 
@@ -50,12 +50,11 @@ typedef struct cs_intersections {
   double *shares; /* the share of the step at which the edge crosses its right neighbour; INFINITY:
                      it does not cross */
   double *least;  /* the least share of each batch of 16 shares, if there is more than one batch */
-  uint32_t *first, *last;         /* intersections of this place with the next one on the right, or
-                                     NONE */
-  cs_intersection *intersections; /* from top to bottom */
-  size_t count, capacity;
-  void *storage; /* one allocation, of all the arrays above except the intersections */
-  size_t edge_capacity;
+  /* intersections of this place with the next one on the right, or NONE */
+  uint32_t *first, *last;
+  CS_ARRAY(unsigned char, storage);         /* one allocation, of all the arrays above */
+  CS_ARRAY(cs_intersection, intersections); /* from top to bottom */
+  size_t count, edge_capacity;
 } cs_intersections;
 
 void cs_intersections_finish(cs_intersections *intersections, cs_memory *memory);

@@ -14,15 +14,14 @@ void cs_local_sweep_init(cs_local_sweep *sweep, cs_composer *composer, cs_arena 
 
 void cs_local_sweep_finish(cs_local_sweep *sweep, cs_memory *memory) {
   cs_intersections_finish(&sweep->intersections, memory);
-  cs_mem_free(memory, sweep->entering, sweep->member_capacity * sizeof *sweep->entering);
-  cs_mem_free(memory, sweep->lists, sweep->list_capacity * sizeof *sweep->lists);
+  CS_ARRAYS_FREE(memory, sweep, entering, lists);
 }
 
 celspan_status cs_local_sweep_begin(cs_local_sweep *sweep, size_t count) {
   celspan_context *context = sweep->composer->context;
   size_t most = count + sweep->begin_count;
-  CS_TRY(CS_RESERVE(context, sweep->entering, sweep->member_capacity, most));
-  CS_TRY(CS_RESERVE(context, sweep->lists, sweep->list_capacity, 3 * most));
+  CS_TRY(CS_ARRAY_RESERVE(context, sweep->entering, most));
+  CS_TRY(CS_ARRAY_RESERVE(context, sweep->lists, 3 * most));
   sweep->members = (cs_member **)sweep->lists;
   sweep->spare = sweep->members + most;
   sweep->cells_below = (const cs_cell **)(sweep->lists + 2 * most);

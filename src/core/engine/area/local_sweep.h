@@ -109,9 +109,8 @@ typedef struct cs_local_sweep {
   bool is_low;    /* counted in their order at the foot of the slab, not at its top */
   /* memory of the sweep, kept from one replay to the next */
   cs_intersections intersections;
-  cs_member *entering; /* the members at the top of the row */
-  void **lists;        /* for members, spare and cells_below */
-  size_t member_capacity, list_capacity;
+  CS_ARRAY(cs_member, entering); /* the members at the top of the row */
+  CS_ARRAY(void *, lists);       /* for members, spare and cells_below */
 } cs_local_sweep;
 
 void cs_local_sweep_init(cs_local_sweep *sweep, cs_composer *composer, cs_arena *arena,

@@ -37,7 +37,7 @@ void cs_window_init(cs_window *window, cs_painter *painter, cs_arena *arena, int
 }
 
 void cs_window_finish(cs_window *window, cs_memory *memory) {
-  cs_mem_free(memory, window->borders, window->border_capacity * sizeof *window->borders);
+  CS_ARRAYS_FREE(memory, window, borders, borders);
   cs_arena_finish(&window->tiles, memory);
 }
 
@@ -509,9 +509,7 @@ static void note_border(cs_window *window, const cs_window_border *noted) {
 }
 
 celspan_status cs_window_add(cs_window *window, const cs_border *border) {
-  if (window->border_count == window->border_capacity)
-    CS_TRY(CS_RESERVE(window->composer->context, window->borders, window->border_capacity,
-                      window->border_count + 1));
+  CS_TRY(CS_ARRAY_RESERVE(window->composer->context, window->borders, window->border_count + 1));
   cs_window_border *added = &window->borders[window->border_count++];
   *added = (cs_window_border){*border, measure(window, border)};
   note_border(window, added);

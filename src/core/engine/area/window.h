@@ -45,8 +45,8 @@ typedef struct cs_window {
   int32_t end;         /* the end of the open window; equal to `from` if it is empty */
   const cs_cell *base; /* the cell left of the window */
   const cs_cell *cell; /* the cell right of all items so far */
-  cs_window_border *borders;
-  size_t border_count, border_capacity;
+  CS_ARRAY(cs_window_border, borders);
+  size_t border_count;
   bool is_open, varies;
   /* what borders between flat cells that end near the window's left end add to the sum of colours
    * from column to column */

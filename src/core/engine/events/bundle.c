@@ -12,17 +12,17 @@ static celspan_status make_row(celspan_context *context, const cs_cull *cull, in
     bundle.count = k - first;
     cs_courses_add_upright(courses, all[first].x, cs_bundle_top(cull, row),
                            cs_bundle_top(cull, row + 1));
-    CS_TRY(CS_APPEND(context, out->bundles, out->count, out->capacity, bundle));
+    CS_TRY(CS_ARRAY_APPEND(context, out->bundles, out->count, bundle));
   }
   return CELSPAN_OK;
 }
 
 celspan_status cs_bundles_make(celspan_context *context, const cs_cull *cull, cs_courses *courses,
                                cs_bundles *out) {
-  *out = (cs_bundles){.row_count = (size_t)cull->tile_rows};
+  *out = (cs_bundles){0};
   if (cull->tile_rows == 0)
     return CELSPAN_OK;
-  CS_TRY(CS_MAKE(context, out->starts, out->row_count + 1));
+  CS_TRY(CS_ARRAY_MAKE(context, out->starts, (size_t)cull->tile_rows + 1));
   for (int32_t row = 0; row < cull->tile_rows; row++) {
     CS_TRY(make_row(context, cull, row, courses, out));
     out->starts[row + 1] = (uint32_t)out->count;
@@ -31,7 +31,6 @@ celspan_status cs_bundles_make(celspan_context *context, const cs_cull *cull, cs
 }
 
 void cs_bundles_finish(cs_bundles *bundles, cs_memory *memory) {
-  cs_mem_free(memory, bundles->bundles, bundles->capacity * sizeof *bundles->bundles);
-  cs_mem_free(memory, bundles->starts, (bundles->row_count + 1) * sizeof *bundles->starts);
+  CS_ARRAYS_FREE(memory, bundles, bundles, starts);
   *bundles = (cs_bundles){0};
 }

@@ -11,7 +11,7 @@
  */
 #pragma once
 
-#include "base/context.h"
+#include "base/arrays.h"
 #include "engine/events/course.h"
 #include "engine/sweep/cull.h"
 
@@ -29,9 +29,9 @@ typedef struct cs_windings_entry {
 } cs_windings_entry;
 
 typedef struct cs_windings {
-  cs_windings_entry *entries; /* 0: nothing winds around the place */
-  uint32_t *slots;            /* numbers plus 1; 0: free. A power of two */
-  size_t count, capacity, slot_count;
+  CS_ARRAY(cs_windings_entry, entries); /* 0: nothing winds around the place */
+  CS_ARRAY(uint32_t, slots);            /* numbers plus 1; 0: free. A power of two */
+  size_t count;
 } cs_windings;
 
 /* Errors: NO_MEMORY; cs_windings_finish must be called then, too. */
@@ -53,9 +53,10 @@ typedef struct cs_bundle {
 } cs_bundle;
 
 typedef struct cs_bundles {
-  cs_bundle *bundles;
-  uint32_t *starts; /* by row of tiles, and the end of the last one; NULL: there are no rows */
-  size_t count, capacity, row_count;
+  CS_ARRAY(cs_bundle, bundles);
+  /* by row of tiles, and the end of the last one; NULL: there are no rows */
+  CS_ARRAY(uint32_t, starts);
+  size_t count;
 } cs_bundles;
 
 /* Appends the courses of the bundles, for which there is room. Errors: NO_MEMORY; cs_bundles_finish

@@ -122,9 +122,9 @@ celspan_status cs_courses_make(celspan_context *context, const cs_boundary_set *
   maker m = {.set = set, .out = out, .height = height, .top = top, .foot = foot};
   size_t most, count = count_points(&m, &most) + 2 * more;
   *out = (cs_courses){0};
-  CS_TRY(CS_RESERVE(context, out->courses, out->course_capacity, set->chain_count + more + 1));
+  CS_TRY(CS_ARRAY_RESERVE(context, out->courses, set->chain_count + more + 1));
   out->course_count = set->chain_count;
-  CS_TRY(CS_RESERVE(context, out->points, out->point_capacity, count));
+  CS_TRY(CS_ARRAY_RESERVE(context, out->points, count));
   CS_TRY(CS_MAKE(context, m.x, 2 * most));
   m.y = m.x + most;
   for (size_t i = 0; i < set->chain_count; i++)
@@ -142,7 +142,6 @@ void cs_courses_add_upright(cs_courses *courses, double x, int32_t top, int32_t 
 }
 
 void cs_courses_finish(cs_courses *courses, cs_memory *memory) {
-  cs_mem_free(memory, courses->courses, courses->course_capacity * sizeof *courses->courses);
-  cs_mem_free(memory, courses->points, courses->point_capacity * sizeof *courses->points);
+  CS_ARRAYS_FREE(memory, courses, courses, points);
   *courses = (cs_courses){0};
 }

@@ -16,6 +16,7 @@
  */
 #pragma once
 
+#include "base/arrays.h"
 #include "model/geometry/boundary.h"
 
 #define CS_COURSE_UNIT 65536 /* parts of a pixel */
@@ -33,9 +34,9 @@ typedef struct cs_course {
 
 /* The courses of chains, by chain; other courses may follow. */
 typedef struct cs_courses {
-  cs_course *courses;
-  cs_course_point *points;
-  size_t course_count, course_capacity, point_count, point_capacity;
+  CS_ARRAY(cs_course, courses);
+  CS_ARRAY(cs_course_point, points);
+  size_t course_count, point_count;
 } cs_courses;
 
 /* The chains must lie within 16384 pixels of the origin sideways. The parts above 0 and below the

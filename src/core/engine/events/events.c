@@ -16,12 +16,11 @@ typedef struct sweep {
   int32_t tile_row; /* -1: above the first one */
   cs_events *events;
   cs_order order;
-  intersection *intersections; /* a heap, the highest one first */
-  uint64_t *ends;              /* keys of all chains by where they end */
-  uint64_t *dirty;             /* by x, courses whose windings must be found again */
-  uint32_t *touched;           /* courses that have another right neighbour */
-  size_t intersection_count, intersection_capacity, end_count, next_end, next_begin;
-  size_t dirty_count, dirty_capacity, touched_count, touched_capacity;
+  CS_ARRAY(intersection, intersections); /* a heap, the highest one first */
+  CS_ARRAY(uint64_t, ends);              /* keys of all chains by where they end */
+  CS_ARRAY(uint64_t, dirty);             /* by x, courses whose windings must be found again */
+  CS_ARRAY(uint32_t, touched);           /* courses that have another right neighbour */
+  size_t intersection_count, end_count, dirty_count, touched_count, next_end, next_begin;
   int32_t zone_height, zone; /* in units; zone: the number of the current zone plus 1 */
   cs_events_limits limits;
   size_t met, entered; /* windings and courses in the zone */
@@ -32,8 +31,7 @@ typedef struct sweep {
 
 /* Adds an intersection to the heap. */
 static celspan_status push(sweep *s, intersection added) {
-  CS_TRY(CS_APPEND(s->context, s->intersections, s->intersection_count, s->intersection_capacity,
-                   added));
+  CS_TRY(CS_ARRAY_APPEND(s->context, s->intersections, s->intersection_count, added));
   size_t at = s->intersection_count - 1;
   for (size_t parent; at > 0 && s->intersections[parent = (at - 1) / 2].y > added.y; at = parent)
     s->intersections[at] = s->intersections[parent];
@@ -94,7 +92,7 @@ static celspan_status close(sweep *s, uint32_t course, int32_t y) {
   entry->since = y;
   if (part.top >= y)
     return CELSPAN_OK;
-  return CS_APPEND(s->context, events->parts, events->part_count, events->part_capacity, part);
+  return CS_ARRAY_APPEND(s->context, events->parts, events->part_count, part);
 }
 
 static celspan_status mark_dirty(sweep *s, uint32_t course, int32_t y) {
@@ -103,7 +101,7 @@ static celspan_status mark_dirty(sweep *s, uint32_t course, int32_t y) {
     return CELSPAN_OK;
   entry->is_dirty = true;
   const uint64_t key = cs_key((int32_t)cs_order_x(&s->order, course, y), course);
-  return CS_APPEND(s->context, s->dirty, s->dirty_count, s->dirty_capacity, key);
+  return CS_ARRAY_APPEND(s->context, s->dirty, s->dirty_count, key);
 }
 
 /* Finds the windings right of a course, given those on its left. */
@@ -165,7 +163,7 @@ static celspan_status touch(sweep *s, uint32_t course) {
   if (entry->is_touched)
     return CELSPAN_OK;
   entry->is_touched = true;
-  return CS_APPEND(s->context, s->touched, s->touched_count, s->touched_capacity, course);
+  return CS_ARRAY_APPEND(s->context, s->touched, s->touched_count, course);
 }
 
 static celspan_status enter(sweep *s, uint32_t course, int32_t y) {
@@ -425,7 +423,7 @@ static celspan_status go_down(sweep *s, int32_t top, int32_t foot, int32_t *next
 /* Lists where the chains end. */
 static celspan_status list_ends(sweep *s) {
   const cs_courses *courses = &s->events->courses;
-  CS_TRY(CS_MAKE(s->context, s->ends, s->set->chain_count + 1));
+  CS_TRY(CS_ARRAY_MAKE(s->context, s->ends, s->set->chain_count + 1));
   for (size_t i = 0; i < s->set->chain_count; i++) {
     const cs_course *course = &courses->courses[i];
     const cs_course_point *last = courses->points + course->first + course->count - 1;
@@ -433,15 +431,6 @@ static celspan_status list_ends(sweep *s) {
       s->ends[s->end_count++] = cs_key(last->y, i);
   }
   return cs_keys_sort(s->context, s->ends, s->end_count);
-}
-
-static void finish(sweep *s) {
-  cs_memory *memory = s->context->memory;
-  cs_order_finish(&s->order, memory);
-  cs_mem_free(memory, s->intersections, s->intersection_capacity * sizeof *s->intersections);
-  cs_mem_free(memory, s->dirty, s->dirty_capacity * sizeof *s->dirty);
-  cs_mem_free(memory, s->touched, s->touched_capacity * sizeof *s->touched);
-  cs_mem_free(memory, s->ends, (s->set->chain_count + 1) * sizeof *s->ends);
 }
 
 celspan_status cs_events_find(celspan_context *context, const cs_boundary_set *set,
@@ -457,13 +446,14 @@ celspan_status cs_events_find(celspan_context *context, const cs_boundary_set *s
       cs_courses_make(context, set, rows.height, top, last, cull->deferred_count, &out->courses));
   CS_TRY(cs_bundles_make(context, cull, &out->courses, &out->bundles));
   CS_TRY(cs_windings_init(context, &out->windings));
-  CS_TRY(CS_RESERVE(context, out->parts, out->part_capacity, 4 * out->courses.course_count));
+  CS_TRY(CS_ARRAY_RESERVE(context, out->parts, 4 * out->courses.course_count));
   celspan_status status = list_ends(&s);
   if (status == CELSPAN_OK)
     status = cs_order_init(context, &out->courses, &s.order);
   while (top < foot && status == CELSPAN_OK)
     status = go_down(&s, top, foot, &top);
-  finish(&s);
+  cs_order_finish(&s.order, context->memory);
+  CS_ARRAYS_FREE(context->memory, &s, intersections, touched);
   return status;
 }
 
@@ -471,6 +461,6 @@ void cs_events_finish(cs_events *events, cs_memory *memory) {
   cs_courses_finish(&events->courses, memory);
   cs_bundles_finish(&events->bundles, memory);
   cs_windings_finish(&events->windings, memory);
-  cs_mem_free(memory, events->parts, events->part_capacity * sizeof *events->parts);
+  CS_ARRAYS_FREE(memory, events, parts, parts);
   *events = (cs_events){0};
 }

@@ -40,8 +40,8 @@ typedef struct cs_events {
   cs_courses courses;
   cs_bundles bundles; /* their courses follow the courses of chains */
   cs_windings windings;
-  cs_events_part *parts; /* the parts of a course from the top down */
-  size_t part_count, part_capacity;
+  CS_ARRAY(cs_events_part, parts); /* the parts of a course from the top down */
+  size_t part_count;
   size_t intersections; /* how often two courses have changed places */
   uint64_t missing;     /* bit k: zone k has too many windings, and no parts */
 } cs_events;

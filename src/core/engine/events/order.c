@@ -6,7 +6,7 @@
 
 celspan_status cs_order_init(celspan_context *context, const cs_courses *courses, cs_order *out) {
   *out = (cs_order){.courses = courses, .ends = (uint32_t)courses->course_count};
-  CS_TRY(CS_MAKE(context, out->entries, courses->course_count + 1));
+  CS_TRY(CS_ARRAY_MAKE(context, out->entries, courses->course_count + 1));
   out->entries[out->ends].previous = out->entries[out->ends].next = out->last = out->ends;
   return CELSPAN_OK;
 }
@@ -21,8 +21,7 @@ void cs_order_clear(cs_order *order) {
 }
 
 void cs_order_finish(cs_order *order, cs_memory *memory) {
-  cs_mem_free(memory, order->entries, ((size_t)order->ends + 1) * sizeof *order->entries);
-  cs_mem_free(memory, order->index, order->index_capacity * sizeof *order->index);
+  CS_ARRAYS_FREE(memory, order, entries, index);
   *order = (cs_order){0};
 }
 
@@ -167,7 +166,7 @@ static double find_extent(const cs_order *order, uint32_t course, int32_t y) {
  * find_extent, where a belt begins. */
 static celspan_status make_index(celspan_context *context, cs_order *order, int32_t y,
                                  double (*x_at)(const cs_order *, uint32_t, int32_t)) {
-  CS_TRY(CS_RESERVE(context, order->index, order->index_capacity, order->count));
+  CS_TRY(CS_ARRAY_RESERVE(context, order->index, order->count));
   order->index_count = order->entered = 0;
   for (uint32_t i = order->entries[order->ends].next; i != order->ends; i = order->entries[i].next)
     order->index[order->index_count++] = (cs_order_place){x_at(order, i, y), i};

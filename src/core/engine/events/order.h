@@ -21,6 +21,7 @@
  */
 #pragma once
 
+#include "base/arrays.h"
 #include "engine/events/course.h"
 
 #define CS_ORDER_SLACK 2.0 /* units */
@@ -48,11 +49,12 @@ typedef struct cs_order_place {
 } cs_order_place;
 
 typedef struct cs_order {
-  const cs_courses *courses; /* borrowed */
-  cs_order_entry *entries;   /* one for each course, and the ends */
-  uint32_t ends;             /* the number of the entry for the ends */
-  cs_order_place *index;     /* courses that crossed an earlier height, from left to right */
-  size_t index_count, index_capacity, count;
+  const cs_courses *courses;         /* borrowed */
+  CS_ARRAY(cs_order_entry, entries); /* one for each course, and the ends */
+  /* courses that crossed an earlier height, from left to right */
+  CS_ARRAY(cs_order_place, index);
+  uint32_t ends; /* the number of the entry for the ends */
+  size_t index_count, count;
   size_t entered; /* courses that were put in after the index was made */
   uint32_t last;  /* the last one of these, or the ends */
   int32_t foot;   /* where the belt ends */

@@ -27,8 +27,8 @@ cs_windings_hash cs_windings_add(cs_windings_hash hash, uint32_t layer, int32_t 
 
 /* The slot of a hash: the slot that contains its number, or a free one. */
 static size_t find_slot(const cs_windings *w, cs_windings_hash hash) {
-  size_t at = hash.a & (w->slot_count - 1);
-  for (; w->slots[at]; at = (at + 1) & (w->slot_count - 1)) {
+  size_t at = hash.a & (w->slots_room.capacity - 1);
+  for (; w->slots[at]; at = (at + 1) & (w->slots_room.capacity - 1)) {
     const cs_windings_hash *found = &w->entries[w->slots[at] - 1].hash;
     if (found->a == hash.a && found->b == hash.b)
       break;
@@ -37,12 +37,8 @@ static size_t find_slot(const cs_windings *w, cs_windings_hash hash) {
 }
 
 static celspan_status widen_slots(celspan_context *context, cs_windings *w) {
-  size_t count = w->slot_count > 0 ? 2 * w->slot_count : SLOTS_LEAST;
-  uint32_t *slots;
-  CS_TRY(CS_MAKE(context, slots, count));
-  cs_mem_free(context->memory, w->slots, w->slot_count * sizeof *w->slots);
-  w->slots = slots;
-  w->slot_count = count;
+  size_t count = 2 * (size_t)w->slots_room.capacity;
+  CS_TRY(CS_ARRAY_MAKE(context, w->slots, count > 0 ? count : SLOTS_LEAST));
   for (size_t i = 0; i < w->count; i++)
     w->slots[find_slot(w, w->entries[i].hash)] = (uint32_t)i + 1;
   return CELSPAN_OK;
@@ -50,13 +46,12 @@ static celspan_status widen_slots(celspan_context *context, cs_windings *w) {
 
 celspan_status cs_windings_init(celspan_context *context, cs_windings *w) {
   *w = (cs_windings){0};
-  CS_TRY(CS_APPEND(context, w->entries, w->count, w->capacity, (cs_windings_entry){.boundary = 0}));
+  CS_TRY(CS_ARRAY_APPEND(context, w->entries, w->count, (cs_windings_entry){.boundary = 0}));
   return widen_slots(context, w);
 }
 
 void cs_windings_finish(cs_windings *w, cs_memory *memory) {
-  cs_mem_free(memory, w->entries, w->capacity * sizeof *w->entries);
-  cs_mem_free(memory, w->slots, w->slot_count * sizeof *w->slots);
+  CS_ARRAYS_FREE(memory, w, entries, slots);
   *w = (cs_windings){0};
 }
 
@@ -72,7 +67,7 @@ celspan_status cs_windings_cross(celspan_context *context, cs_windings *w, uint3
   }
   *out = (uint32_t)w->count;
   const cs_windings_entry entry = {hash, from, boundary, 0};
-  CS_TRY(CS_APPEND(context, w->entries, w->count, w->capacity, entry));
+  CS_TRY(CS_ARRAY_APPEND(context, w->entries, w->count, entry));
   w->slots[at] = *out + 1;
-  return 2 * w->count > w->slot_count ? widen_slots(context, w) : CELSPAN_OK;
+  return 2 * w->count > w->slots_room.capacity ? widen_slots(context, w) : CELSPAN_OK;
 }
