@@ -68,7 +68,7 @@ static void check_even(celspan_context *context, test_random *random) {
                               i == 0 ? NULL : n.even};
     CHECK(cs_defocus_band_begin(context, 1, &bands[i]) == CELSPAN_OK);
     CHECK(cs_defocus_band_add(&grid, context, &row, &bands[i]) == CELSPAN_OK);
-    cs_defocus_band_end(&grid, context->memory, &bands[i]);
+    CHECK(cs_defocus_band_end(&grid, context, &bands[i]) == CELSPAN_OK);
   }
   const cs_node_polyline *a = &bands[0].polyline, *b = &bands[1].polyline;
   if (CHECK(a->count == b->count && a->at[a->count - 1] == n.count - 1)) {
@@ -116,7 +116,7 @@ static void check_sum(cs_isa isa, test_random *random) {
   sums[1] = sums[0];
   int32_t first = random_below(random, COUNT), end = first + random_below(random, COUNT - first);
   for (int i = 0; i < 2; i++) {
-    cs_defocus_columns columns = {near[i], steps[i], below[i]};
+    cs_defocus_columns columns = {.near = near[i], .steps = steps[i], .below = below[i]};
     CS_WIDE_CHOOSE(i == 0 ? CS_ISA_ANY : isa, cs_defocus_lines_sum)
     (&columns, first, end, &sums[i], lines[i]);
   }

@@ -11,10 +11,6 @@
 
 /* ---------------------------------------------------------------- tables */
 
-static size_t share_count(const cs_defocus_edges *edges) {
-  return (size_t)(PHASES + 1) * (size_t)(2 * edges->extent_x + 2);
-}
-
 static int32_t stride_of(const cs_defocus_edges *edges) { return 2 * edges->extent_x + 2; }
 
 /* The integral of a Gaussian by the midpoint rule, up to every phase of every column from the left
@@ -95,17 +91,14 @@ celspan_status cs_defocus_edges_init(celspan_context *context, const cs_blur *bl
   double extent_y = is_box ? fabs(e[0][1]) + fabs(e[1][1]) : 0.5 * SIGMAS * blur->radius_y;
   *out = (cs_defocus_edges){.extent_x = cs_number_ceil(extent_x),
                             .extent_y = cs_number_ceil(extent_y)};
-  CS_TRY(CS_MAKE(context, out->shares, share_count(out)));
-  CS_TRY(CS_MAKE(context, out->weights, (size_t)out->extent_y));
+  CS_TRY(CS_ARRAY_MAKE(context, out->shares, (size_t)(PHASES + 1) * (size_t)stride_of(out)));
+  CS_TRY(CS_ARRAY_MAKE(context, out->weights, (size_t)out->extent_y));
   CS_TRY(fill_shares(context, blur, out));
   fill_weights(out, blur);
   return CELSPAN_OK;
 }
 
 void cs_defocus_edges_finish(cs_defocus_edges *edges, cs_memory *memory) {
-  if (edges->shares)
-    cs_mem_free(memory, edges->shares, share_count(edges) * sizeof *edges->shares);
-  if (edges->weights)
-    cs_mem_free(memory, edges->weights, (size_t)edges->extent_y * sizeof *edges->weights);
+  CS_ARRAYS_FREE(memory, edges, shares, weights);
   *edges = (cs_defocus_edges){0};
 }

@@ -24,8 +24,9 @@
 
 typedef struct cs_defocus_edges {
   int32_t extent_x, extent_y; /* samples that the kernel reaches to a side */
-  float *shares;  /* by phase and by 2 extent_x + 2 columns: of the kernel right of an edge */
-  float *weights; /* extent_y of them: of lines k + 1/2 rows away */
+  /* by phase and by 2 extent_x + 2 columns: of the kernel right of an edge */
+  CS_ARRAY(float, shares);
+  CS_ARRAY(float, weights); /* extent_y of them: of lines k + 1/2 rows away */
 } cs_defocus_edges;
 
 /* blur: in samples; a Gaussian, or a box along the axes. Errors: NO_MEMORY. */

@@ -11,9 +11,9 @@ typedef struct node_plane {
   cs_row_maker maker;
   cs_defocus_lines *lines; /* NULL: the rows go through the kernel of the plan */
   cs_row row;
-  float (*nodes)[4]; /* the row that is being made: a row of the band, or `alone` */
-  float (*alone)[4]; /* NULL where the band keeps all nodes */
-  bool *even;        /* for each group */
+  float (*nodes)[4];         /* the row that is being made: a row of the band, or `alone` */
+  CS_ARRAY(float[4], alone); /* NULL where the band keeps all nodes */
+  CS_ARRAY(bool, even);      /* for each group */
 } node_plane;
 
 typedef struct filling {
@@ -34,16 +34,13 @@ static bool is_thin(const cs_defocus *defocus) {
 
 static celspan_status init_plane(filling *f, int k) {
   const cs_defocus *defocus = f->defocus;
-  cs_memory *memory = f->context->memory;
   node_plane *p = &f->planes[k];
   int32_t columns = f->grid->columns;
   cs_row_init(&p->row);
   CS_TRY(cs_row_maker_init(&p->maker, f->context, &defocus->plans[k]));
-  if (is_thin(defocus))
-    p->nodes = p->alone = cs_mem_array(memory, (size_t)columns, sizeof *p->alone);
-  p->even = cs_mem_array(memory, (size_t)f->groups, sizeof *p->even);
-  if ((is_thin(defocus) && !p->alone) || !p->even)
-    return cs_fail_memory(f->context);
+  CS_TRY(CS_ARRAY_MAKE(f->context, p->alone, is_thin(defocus) ? (size_t)columns : 0));
+  p->nodes = p->alone;
+  CS_TRY(CS_ARRAY_MAKE(f->context, p->even, (size_t)f->groups));
   return defocus->way == CS_DEFOCUS_EDGES
              ? cs_defocus_lines_create(&defocus->edges, &p->maker, columns, &p->lines)
              : CELSPAN_OK;
@@ -54,8 +51,7 @@ static void finish_plane(filling *f, int k) {
   node_plane *p = &f->planes[k];
   cs_defocus_lines_free(p->lines);
   cs_row_finish(&p->row, memory);
-  cs_mem_free(memory, p->alone, (size_t)f->grid->columns * sizeof *p->alone);
-  cs_mem_free(memory, p->even, (size_t)f->groups * sizeof *p->even);
+  CS_ARRAYS_FREE(memory, p, alone, even);
   cs_row_maker_finish(&p->maker);
 }
 
@@ -154,9 +150,7 @@ static celspan_status fill_rows(filling *f, int32_t first, int32_t end, cs_defoc
     CS_TRY(init_plane(f, k));
   for (int32_t y = first; y < end; y++)
     CS_TRY(is_thin(defocus) ? make_vertices(f, y, band) : make_kept(f, y, y - first, band));
-  if (is_thin(defocus))
-    cs_defocus_band_end(f->grid, f->context->memory, band);
-  return CELSPAN_OK;
+  return is_thin(defocus) ? cs_defocus_band_end(f->grid, f->context, band) : CELSPAN_OK;
 }
 
 /* Fills an empty band with the rows [first, end) of nodes, one after the other. */

@@ -222,7 +222,7 @@ static celspan_status compile_new(celspan_context *context, const cs_defocus_cel
   cs_defocus_made *made = compiler->made;
   CS_TRY(compile_planes(context, place, compiler, defocus));
   cs_defocus_fill_bands(defocus);
-  CS_TRY(CS_RESERVE(context, made->list, made->capacity, made->count + 1));
+  CS_TRY(CS_ARRAY_RESERVE(context, made->list, made->count + 1));
   CS_TRY(cs_hash_table_add(&made->numbers, context, defocus->key, made->count));
   made->list[made->count++] = defocus;
   defocus->owners++;
@@ -232,7 +232,7 @@ static celspan_status compile_new(celspan_context *context, const cs_defocus_cel
 void cs_defocus_made_finish(cs_defocus_made *made, celspan_context *context) {
   for (size_t i = 0; i < made->count; i++)
     cs_defocus_layer_unref(made->list[i], context->memory);
-  cs_mem_free(context->memory, made->list, made->capacity * sizeof(cs_defocus *));
+  CS_ARRAYS_FREE(context->memory, made, list, list);
   cs_hash_table_finish(&made->numbers, context);
   *made = (cs_defocus_made){0};
 }

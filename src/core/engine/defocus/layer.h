@@ -41,8 +41,8 @@ typedef struct cs_defocus_job {
  * nesting. All zero is empty. */
 typedef struct cs_defocus_made {
   cs_hash_table numbers;
-  cs_defocus **list;
-  size_t count, capacity;
+  CS_ARRAY(cs_defocus *, list);
+  size_t count;
 } cs_defocus_made;
 
 void cs_defocus_made_finish(cs_defocus_made *made, celspan_context *context);

@@ -37,8 +37,6 @@ static void find_columns(cs_regrid_rows *rows) {
   }
 }
 
-static size_t mixed_count(const cs_regrid *map) { return (size_t)map->from->columns + 3; }
-
 static void drop_band(cs_regrid_rows *rows, int i) {
   const cs_defocused *from = rows->map->from;
   if (rows->bands[i])
@@ -47,11 +45,9 @@ static void drop_band(cs_regrid_rows *rows, int i) {
 }
 
 static void finish_rows(cs_regrid_rows *rows) {
-  cs_memory *memory = rows->context->memory;
   drop_band(rows, 0);
   drop_band(rows, 1);
-  cs_mem_free(memory, rows->columns, (size_t)rows->to->columns * sizeof *rows->columns);
-  cs_mem_free(memory, rows->mixed, mixed_count(rows->map) * sizeof *rows->mixed);
+  CS_ARRAYS_FREE(rows->context->memory, rows, columns, mixed);
 }
 
 void cs_regrid_forget(celspan_context *context, cs_defocused_view *view) {
@@ -63,18 +59,17 @@ void cs_regrid_forget(celspan_context *context, cs_defocused_view *view) {
 
 static celspan_status begin_rows(const cs_regrid *map, const cs_defocused *to,
                                  celspan_context *context, cs_defocused_view *view) {
-  cs_memory *memory = context->memory;
   CS_TRY(CS_MAKE(context, view->rows, 1));
   cs_regrid_rows *rows = view->rows;
   *rows = (cs_regrid_rows){.map = map, .to = to, .context = context, .isa = cs_isa_best()};
-  rows->columns = cs_mem_array(memory, (size_t)to->columns, sizeof *rows->columns);
-  rows->mixed = cs_mem_array(memory, mixed_count(map), sizeof *rows->mixed);
-  if (!rows->columns || !rows->mixed) {
+  celspan_status status = CS_ARRAY_MAKE(context, rows->columns, (size_t)to->columns);
+  if (status == CELSPAN_OK)
+    status = CS_ARRAY_MAKE(context, rows->mixed, (size_t)map->from->columns + 3);
+  if (status == CELSPAN_OK)
+    find_columns(rows);
+  else
     cs_regrid_forget(context, view);
-    return cs_fail_memory(context);
-  }
-  find_columns(rows);
-  return CELSPAN_OK;
+  return status;
 }
 
 /* ---------------------------------------------------------------- a row */

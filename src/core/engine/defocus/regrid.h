@@ -40,9 +40,10 @@ typedef struct cs_regrid_rows {
   cs_isa isa;
   cs_defocus_band *bands[2]; /* acquired: one with an even, one with an odd number; NULL: none */
   int32_t numbers[2];
-  cs_regrid_column *columns;
-  float (*mixed)[4]; /* a row of the cel's own nodes, at the height of the row being made; its first
-                        node is there twice, its last one three times */
+  CS_ARRAY(cs_regrid_column, columns);
+  /* a row of the cel's own nodes, at the height of the row being made; its first node is there
+   * twice, its last one three times */
+  CS_ARRAY(float[4], mixed);
 } cs_regrid_rows;
 
 /* As `mix` and `forget` of cs_defocused: mixes a row of nodes at a height of the frame, as far as

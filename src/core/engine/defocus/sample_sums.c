@@ -22,15 +22,9 @@ static double left_over(double variance) {
 
 /* A Gaussian of two standard deviations in `radius` samples, integrated over the linear pieces from
  * sample to sample. */
-static celspan_status fill_weights(celspan_context *context, double radius, int32_t *extent,
-                                   float **out) {
+static void fill_weights(double radius, int32_t extent, float *weights) {
   double variance = left_over(0.25 * radius * radius), sum = 0, last = 2 * radius;
-  *extent = cs_number_ceil(last);
-  size_t count = (size_t)*extent + 1;
-  float *weights;
-  CS_TRY(CS_MAKE(context, weights, count));
-  *out = weights;
-  for (int32_t k = *extent; k >= 0; k--) {
+  for (int32_t k = extent; k >= 0; k--) {
     double weight = 0;
     for (int j = -STEPS; j < STEPS; j++) {
       double away = (j + 0.5) / STEPS, x = k + away;
@@ -40,9 +34,8 @@ static celspan_status fill_weights(celspan_context *context, double radius, int3
     weights[k] = (float)weight;
     sum += (k > 0 ? 2 : 1) * weight;
   }
-  for (size_t k = 0; k < count; k++)
+  for (int32_t k = 0; k <= extent; k++)
     weights[k] = (float)((double)weights[k] / sum);
-  return CELSPAN_OK;
 }
 
 /* The least odd factor that gives the radius enough samples. */
@@ -59,38 +52,35 @@ static size_t place_of(const cs_defocus_sums *sums, int32_t sample) {
   return k % factor * sums->places + k / factor;
 }
 
-static celspan_status find_pairs(celspan_context *context, cs_defocus_sums *sums) {
+static void find_pairs(cs_defocus_sums *sums) {
   int32_t x = sums->extent_x, y = sums->extent_y, half = sums->factor / 2;
   sums->places = (size_t)(TILE + 2 * x / sums->factor + 1);
-  sums->across = cs_mem_array(context->memory, (size_t)x, sizeof *sums->across);
-  sums->down = cs_mem_array(context->memory, (size_t)y, sizeof *sums->down);
-  if ((x > 0 && !sums->across) || (y > 0 && !sums->down))
-    return cs_fail_memory(context);
   for (int32_t k = x; k >= 1; k--)
     sums->across[x - k] = (cs_defocus_pair){4 * place_of(sums, x + half - k),
-                                            4 * place_of(sums, x + half + k), sums->weights[0][k]};
+                                            4 * place_of(sums, x + half + k), sums->weights_x[k]};
   for (int32_t k = y; k >= 1; k--)
     sums->down[y - k] = (cs_defocus_pair){4 * TILE * (size_t)(y + half - k),
-                                          4 * TILE * (size_t)(y + half + k), sums->weights[1][k]};
-  return CELSPAN_OK;
+                                          4 * TILE * (size_t)(y + half + k), sums->weights_y[k]};
 }
 
 celspan_status cs_defocus_sums_init(celspan_context *context, double radius_x, double radius_y,
                                     double samples, cs_defocus_sums *out) {
   *out = (cs_defocus_sums){.factor = choose_factor(fmin(radius_x, radius_y), samples)};
-  CS_TRY(fill_weights(context, out->factor * radius_x, &out->extent_x, &out->weights[0]));
-  CS_TRY(fill_weights(context, out->factor * radius_y, &out->extent_y, &out->weights[1]));
-  return find_pairs(context, out);
+  const double x = out->factor * radius_x, y = out->factor * radius_y;
+  out->extent_x = cs_number_ceil(2 * x);
+  out->extent_y = cs_number_ceil(2 * y);
+  CS_TRY(CS_ARRAY_MAKE(context, out->weights_x, (size_t)out->extent_x + 1));
+  CS_TRY(CS_ARRAY_MAKE(context, out->weights_y, (size_t)out->extent_y + 1));
+  CS_TRY(CS_ARRAY_MAKE(context, out->across, (size_t)out->extent_x));
+  CS_TRY(CS_ARRAY_MAKE(context, out->down, (size_t)out->extent_y));
+  fill_weights(x, out->extent_x, out->weights_x);
+  fill_weights(y, out->extent_y, out->weights_y);
+  find_pairs(out);
+  return CELSPAN_OK;
 }
 
 void cs_defocus_sums_finish(cs_defocus_sums *sums, cs_memory *memory) {
-  for (int axis = 0; axis < 2; axis++) {
-    size_t extent = (size_t)(axis == 0 ? sums->extent_x : sums->extent_y);
-    cs_defocus_pair *pairs = axis == 0 ? sums->across : sums->down;
-    if (sums->weights[axis])
-      cs_mem_free(memory, sums->weights[axis], (extent + 1) * sizeof(float));
-    cs_mem_free(memory, pairs, extent * sizeof *pairs);
-  }
+  CS_ARRAYS_FREE(memory, sums, weights_x, down);
   *sums = (cs_defocus_sums){0};
 }
 

@@ -31,10 +31,11 @@ typedef struct cs_defocus_sums {
   float amount;               /* how often the difference is added to what is shown */
   int32_t factor;             /* samples in a node's width */
   int32_t extent_x, extent_y; /* samples beyond the node's own on each side */
-  float *weights[2];          /* by distance: extent_x + 1 and extent_y + 1 of them */
   size_t places;              /* samples of a row that are kept for one place in a node's width */
-  cs_defocus_pair *across;    /* extent_x of them, from the outermost to the innermost */
-  cs_defocus_pair *down;      /* extent_y of them */
+  CS_ARRAY(float, weights_x); /* by distance: extent_x + 1 of them */
+  CS_ARRAY(float, weights_y); /* the same: extent_y + 1 of them */
+  CS_ARRAY(cs_defocus_pair, across); /* extent_x of them, from the outermost to the innermost */
+  CS_ARRAY(cs_defocus_pair, down);   /* extent_y of them */
 } cs_defocus_sums;
 
 /* radius_x, radius_y: two standard deviations, in nodes' widths. samples: in the lesser radius, at

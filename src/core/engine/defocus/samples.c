@@ -2,25 +2,19 @@
 
 celspan_status cs_defocus_samples_begin(cs_row_maker *maker, int32_t first, int32_t count,
                                         size_t room, cs_defocus_samples *out) {
-  cs_memory *memory = maker->context->memory;
-  *out = (cs_defocus_samples){.count = count, .room_count = room};
-  out->rows = cs_mem_array(memory, (size_t)count, sizeof *out->rows);
-  out->from = cs_mem_array(memory, (size_t)count, sizeof *out->from);
-  out->room = cs_mem_array(memory, room, sizeof *out->room);
-  if (!out->rows || !out->from || !out->room)
-    return cs_fail_memory(maker->context);
+  *out = (cs_defocus_samples){.count = count};
+  CS_TRY(CS_ARRAY_MAKE(maker->context, out->rows, (size_t)count));
+  CS_TRY(CS_ARRAY_MAKE(maker->context, out->from, (size_t)count));
+  CS_TRY(CS_ARRAY_MAKE(maker->context, out->room, room));
   for (int32_t k = 0; k < count; k++)
     CS_TRY(cs_row_make(maker, first + k, &out->rows[k]));
   return CELSPAN_OK;
 }
 
 void cs_defocus_samples_finish(cs_defocus_samples *samples, cs_memory *memory) {
-  size_t count = (size_t)samples->count;
-  for (size_t k = 0; samples->rows && k < count; k++)
+  for (int32_t k = 0; samples->rows && k < samples->count; k++)
     cs_row_finish(&samples->rows[k], memory);
-  cs_mem_free(memory, samples->rows, count * sizeof *samples->rows);
-  cs_mem_free(memory, samples->from, count * sizeof *samples->from);
-  cs_mem_free(memory, samples->room, samples->room_count * sizeof *samples->room);
+  CS_ARRAYS_FREE(memory, samples, rows, room);
 }
 
 /* Moves to the tile over the samples [low, high). */

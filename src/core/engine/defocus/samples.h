@@ -13,12 +13,11 @@
 #include "engine/row/row.h"
 
 typedef struct cs_defocus_samples {
-  cs_row *rows;
-  size_t *from; /* by row: the first span that may meet the tile */
+  CS_ARRAY(cs_row, rows);
+  CS_ARRAY(size_t, from); /* by row: the first span that may meet the tile */
+  CS_ARRAY(cs_v4, room);  /* for what is made of them: zeros at first */
   int32_t count;
   int32_t low, high; /* the samples under the tile; tiles come from left to right */
-  cs_v4 *room;       /* for what is made of them: zeros at first */
-  size_t room_count;
 } cs_defocus_samples;
 
 /* Makes `count` rows, from row `first` of the maker on, and room for `room` values. Must be

@@ -126,7 +126,7 @@ celspan_status cs_shifted_begin(const cs_shifted *map, const cs_defocused *to,
 void cs_shifted_end(cs_shifted_rows *rows) {
   cs_memory *memory = rows->context->memory;
   size_t count = (size_t)count_columns(rows->map);
-  cs_shifted_line_end(&rows->line, memory);
+  CS_ARRAYS_FREE(memory, &rows->line, nodes, sums);
   cs_shifted_source_end(rows->context, &rows->from);
   cs_shifted_source_end(rows->context, &rows->by);
   for (int axis = 0; axis < 2; axis++)

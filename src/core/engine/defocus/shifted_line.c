@@ -39,7 +39,7 @@ static void add_tap(cs_shifted_line *line, double x, double y, double weight) {
 celspan_status cs_shifted_line_init(celspan_context *context, const double end[2], size_t taps,
                                     cs_shifted_line *out) {
   *out = (cs_shifted_line){0};
-  CS_TRY(CS_RESERVE(context, out->weights, out->capacity, 2 * taps + 2));
+  CS_TRY(CS_ARRAY_RESERVE(context, out->weights, 2 * taps + 2));
   for (size_t k = (taps + 1) / 2; k < taps; k++) {
     double t = (2 * (double)k + 1) / (double)taps - 1;
     add_tap(out, t * end[0], t * end[1], 1 / (double)taps);
@@ -48,7 +48,7 @@ celspan_status cs_shifted_line_init(celspan_context *context, const double end[2
 }
 
 void cs_shifted_line_finish(cs_shifted_line *line, cs_memory *memory) {
-  cs_mem_free(memory, line->weights, line->capacity * sizeof *line->weights);
+  CS_ARRAYS_FREE(memory, line, weights, weights);
   *line = (cs_shifted_line){0};
 }
 
@@ -56,10 +56,6 @@ void cs_shifted_line_finish(cs_shifted_line *line, cs_memory *memory) {
 
 static size_t plane_floats(const cs_shifted_line_rows *w) {
   return 4 * (size_t)w->height * (size_t)w->width;
-}
-
-static size_t node_floats(const cs_shifted_line_rows *w) {
-  return (size_t)w->from->grid->planes * plane_floats(w);
 }
 
 /* A extent that matters: beyond it everything is the border of the grid. */
@@ -73,24 +69,14 @@ static void place_columns(cs_shifted_line_rows *w) {
 celspan_status cs_shifted_line_begin(celspan_context *context, const cs_shifted_line *line,
                                      cs_shifted_source *from, int32_t left, int32_t count,
                                      cs_shifted_line_rows *out) {
-  cs_memory *memory = context->memory;
   int32_t height = 2 * line->extent[1] + 1;
   *out = (cs_shifted_line_rows){.line = line, .from = from, .left = left};
   out->count = (count + TOGETHER - 1) / TOGETHER * TOGETHER;
   out->height = height < from->grid->rows ? height : from->grid->rows;
   place_columns(out);
-  out->nodes = cs_mem_array(memory, node_floats(out), sizeof *out->nodes);
-  out->pairs = cs_mem_array(memory, line->count + 1, sizeof *out->pairs);
-  out->sums = cs_mem_array(memory, 4 * (size_t)out->count, sizeof *out->sums);
-  return out->nodes && out->pairs && out->sums ? CELSPAN_OK : cs_fail_memory(context);
-}
-
-void cs_shifted_line_end(cs_shifted_line_rows *rows, cs_memory *memory) {
-  if (!rows->line)
-    return;
-  cs_mem_free(memory, rows->nodes, node_floats(rows) * sizeof *rows->nodes);
-  cs_mem_free(memory, rows->pairs, (rows->line->count + 1) * sizeof *rows->pairs);
-  cs_mem_free(memory, rows->sums, 4 * (size_t)rows->count * sizeof *rows->sums);
+  CS_TRY(CS_ARRAY_MAKE(context, out->nodes, (size_t)from->grid->planes * plane_floats(out)));
+  CS_TRY(CS_ARRAY_MAKE(context, out->pairs, line->count + 1));
+  return CS_ARRAY_MAKE(context, out->sums, 4 * (size_t)out->count);
 }
 
 static int32_t row_at(const cs_shifted_line_rows *w, int32_t j) {

@@ -21,22 +21,22 @@ typedef struct cs_shifted_weight {
 } cs_shifted_weight;
 
 typedef struct cs_shifted_line {
-  cs_shifted_weight *weights;
-  size_t count, capacity;
+  CS_ARRAY(cs_shifted_weight, weights);
+  size_t count;
   int32_t extent[2]; /* nodes from the middle one, at most */
 } cs_shifted_line;
 
 typedef struct cs_shifted_line_rows {
   const cs_shifted_line *line;
   cs_shifted_source *from;
-  int32_t left;       /* the node under the first column */
-  int32_t count;      /* columns that are summed, with some beyond the last one */
-  int32_t low, width; /* the nodes of a row that are copied, beyond the grid, too */
-  int32_t height;     /* rows: row j of the nodes is row j % height */
-  int32_t next;       /* the first row of nodes that has not been copied */
-  float *nodes;       /* plane after plane */
-  cs_defocus_pair *pairs;
-  float *sums;
+  int32_t left;           /* the node under the first column */
+  int32_t count;          /* columns that are summed, with some beyond the last one */
+  int32_t low, width;     /* the nodes of a row that are copied, beyond the grid, too */
+  int32_t height;         /* rows: row j of the nodes is row j % height */
+  int32_t next;           /* the first row of nodes that has not been copied */
+  CS_ARRAY(float, nodes); /* plane after plane */
+  CS_ARRAY(cs_defocus_pair, pairs);
+  CS_ARRAY(float, sums);
 } cs_shifted_line_rows;
 
 /* end: of the line, nodes from its middle. Must be finished after a failure too. Errors:
@@ -50,7 +50,6 @@ CELSPAN_CHECKED celspan_status cs_shifted_line_begin(celspan_context *context,
                                                      const cs_shifted_line *line,
                                                      cs_shifted_source *from, int32_t left,
                                                      int32_t count, cs_shifted_line_rows *out);
-void cs_shifted_line_end(cs_shifted_line_rows *rows, cs_memory *memory);
 /* The means around the nodes of row j, not settled, of one plane; rows come from top to bottom, and
  * plane 0 first. They stay until the next call. Errors: those of the bands. */
 CELSPAN_CHECKED celspan_status cs_shifted_line_row(celspan_context *context, cs_isa isa,

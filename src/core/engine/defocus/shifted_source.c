@@ -9,10 +9,10 @@ celspan_status cs_shifted_source_begin(celspan_context *context, const cs_defocu
   *out = (cs_shifted_source){.grid = grid};
   if (!grid)
     return CELSPAN_OK;
-  out->band_count = (size_t)((grid->rows + grid->band_rows - 1) / grid->band_rows);
+  size_t bands = (size_t)((grid->rows + grid->band_rows - 1) / grid->band_rows);
   out->plane = 4 * (size_t)grid->band_rows * (size_t)grid->columns;
-  CS_TRY(CS_MAKE(context, out->bands, out->band_count));
-  return CS_MAKE(context, out->rows, (size_t)grid->rows);
+  CS_TRY(CS_ARRAY_MAKE(context, out->bands, bands));
+  return CS_ARRAY_MAKE(context, out->rows, (size_t)grid->rows);
 }
 
 static void release(celspan_context *context, cs_shifted_source *source, int32_t first,
@@ -29,8 +29,7 @@ void cs_shifted_source_end(celspan_context *context, cs_shifted_source *source) 
     return;
   if (source->bands)
     release(context, source, source->held.first, source->held.end);
-  cs_mem_free(context->memory, source->bands, source->band_count * sizeof *source->bands);
-  cs_mem_free(context->memory, source->rows, (size_t)source->grid->rows * sizeof *source->rows);
+  CS_ARRAYS_FREE(context->memory, source, rows, bands);
 }
 
 void cs_shifted_source_next(celspan_context *context, cs_shifted_source *source) {

@@ -10,10 +10,9 @@
 
 typedef struct cs_shifted_source {
   const cs_defocused *grid;
-  const float **rows; /* the rows of plane 0, where their bands are held */
-  size_t plane;       /* floats from a row to the same one of the next plane */
-  cs_defocus_band **bands;
-  size_t band_count;
+  CS_ARRAY(const float *, rows); /* the rows of plane 0, where their bands are held */
+  CS_ARRAY(cs_defocus_band *, bands);
+  size_t plane;                  /* floats from a row to the same one of the next plane */
   cs_defocused_range held, used; /* bands: some of them may be held; the current row reads these */
 } cs_shifted_source;
 

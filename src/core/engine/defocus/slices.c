@@ -47,8 +47,9 @@ static celspan_status add_slice(celspan_context *context, cs_defocus_slices *sli
   if (!(weight > 0) || !cs_kernel_chord(kernel, 0.5 * (top + foot), &from, &to) ||
       to - from < SHORT)
     return CELSPAN_OK;
-  return CS_APPEND(context, slices->slices, slices->count, slices->capacity,
-                   slice_at(slices, row, centre_x + from, centre_x + to, weight / (to - from)));
+  return CS_ARRAY_APPEND(
+      context, slices->slices, slices->count,
+      slice_at(slices, row, centre_x + from, centre_x + to, weight / (to - from)));
 }
 
 celspan_status cs_defocus_slices_init(celspan_context *context, const cs_blur *blur,
@@ -77,7 +78,7 @@ celspan_status cs_defocus_slices_init(celspan_context *context, const cs_blur *b
 }
 
 void cs_defocus_slices_finish(cs_defocus_slices *slices, cs_memory *memory) {
-  cs_mem_free(memory, slices->slices, slices->capacity * sizeof *slices->slices);
+  CS_ARRAYS_FREE(memory, slices, slices, slices);
   *slices = (cs_defocus_slices){0};
 }
 

@@ -34,8 +34,8 @@ typedef struct cs_defocus_slices {
   int32_t factor;             /* samples in a node's width */
   int32_t extent_x, extent_y; /* samples beyond the node's own on each side */
   size_t places, stride; /* how many sums are kept for one place in a node's width, and for a row */
-  cs_defocus_slice *slices;
-  size_t count, capacity;
+  CS_ARRAY(cs_defocus_slice, slices);
+  size_t count;
 } cs_defocus_slices;
 
 /* blur: in nodes' widths. Errors: NO_MEMORY. */

@@ -30,11 +30,11 @@ struct cs_defocus_lines {
   int32_t line_count; /* under a node */
   int32_t next;       /* the row to be swept */
   bool has_begun;
-  group *groups;
   cs_defocus_columns row;
-  cs_v4 *lines;        /* a ring of line_count lines */
-  const float **under; /* the lines under a row of nodes, from the middle outwards */
-  float *shares;       /* room for the shares of one edge */
+  CS_ARRAY(group, groups);
+  CS_ARRAY(cs_v4, lines);         /* a ring of line_count lines */
+  CS_ARRAY(const float *, under); /* the lines under a row of nodes, from the middle outwards */
+  CS_ARRAY(float, shares);        /* room for the shares of one edge */
   cs_isa isa;
   cs_retained_row retained;
 };
@@ -43,10 +43,9 @@ struct cs_defocus_lines {
 
 celspan_status cs_defocus_lines_create(const cs_defocus_edges *edges, cs_row_maker *maker,
                                        int32_t columns, cs_defocus_lines **out) {
-  cs_memory *memory = maker->context->memory;
-  cs_defocus_lines *f = *out = cs_mem_array(memory, 1, sizeof *f);
-  if (!f)
-    return cs_fail_memory(maker->context);
+  celspan_context *context = maker->context;
+  CS_TRY(CS_MAKE(context, *out, 1));
+  cs_defocus_lines *f = *out;
   f->edges = edges;
   f->maker = maker;
   f->columns = columns;
@@ -54,31 +53,22 @@ celspan_status cs_defocus_lines_create(const cs_defocus_edges *edges, cs_row_mak
   f->line_count = 2 * edges->extent_y;
   f->isa = maker->painter.isa;
   size_t count = (size_t)columns, lines = (size_t)f->line_count;
-  f->groups = cs_mem_array(memory, (size_t)f->group_count, sizeof *f->groups);
-  f->row.near = cs_mem_array(memory, count, sizeof *f->row.near);
-  f->row.steps = cs_mem_array(memory, count, sizeof *f->row.steps);
-  f->row.below = cs_mem_array(memory, count, sizeof *f->row.below);
-  f->lines = cs_mem_resize(memory, NULL, 0, count * lines * sizeof *f->lines); /* not read unset */
-  f->under = cs_mem_array(memory, lines, sizeof *f->under);
-  f->shares = cs_mem_array(memory, 2 * (size_t)edges->extent_x + 2, sizeof *f->shares);
-  bool is_whole =
-      f->groups && f->row.near && f->row.steps && f->row.below && f->lines && f->under && f->shares;
-  return is_whole ? CELSPAN_OK : cs_fail_memory(maker->context);
+  CS_TRY(CS_ARRAY_MAKE(context, f->groups, (size_t)f->group_count));
+  CS_TRY(CS_ARRAY_MAKE(context, f->row.near, count));
+  CS_TRY(CS_ARRAY_MAKE(context, f->row.steps, count));
+  CS_TRY(CS_ARRAY_MAKE(context, f->row.below, count));
+  CS_TRY(CS_ARRAY_FIT(context, f->lines, count * lines)); /* not read unset */
+  CS_TRY(CS_ARRAY_MAKE(context, f->under, lines));
+  return CS_ARRAY_MAKE(context, f->shares, 2 * (size_t)edges->extent_x + 2);
 }
 
 void cs_defocus_lines_free(cs_defocus_lines *f) {
   if (!f)
     return;
   cs_memory *memory = f->maker->context->memory;
-  size_t count = (size_t)f->columns, lines = (size_t)f->line_count;
   cs_retained_finish(&f->retained, memory);
-  cs_mem_free(memory, f->groups, (size_t)f->group_count * sizeof *f->groups);
-  cs_mem_free(memory, f->row.near, count * sizeof *f->row.near);
-  cs_mem_free(memory, f->row.steps, count * sizeof *f->row.steps);
-  cs_mem_free(memory, f->row.below, count * sizeof *f->row.below);
-  cs_mem_free(memory, f->lines, count * lines * sizeof *f->lines);
-  cs_mem_free(memory, f->under, lines * sizeof *f->under);
-  cs_mem_free(memory, f->shares, (2 * (size_t)f->edges->extent_x + 2) * sizeof *f->shares);
+  CS_ARRAYS_FREE(memory, &f->row, near, below);
+  CS_ARRAYS_FREE(memory, f, groups, shares);
   cs_mem_free(memory, f, sizeof *f);
 }
 

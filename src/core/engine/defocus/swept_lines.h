@@ -48,9 +48,10 @@ typedef struct cs_defocus_passed {
 
 /* The columns of a row while they are summed up. */
 typedef struct cs_defocus_columns {
-  cs_defocus_halves *near;  /* edges inside the kernel of the column */
-  cs_defocus_passed *steps; /* the steps of edges that are left of the kernel from this column on */
-  cs_v4 *below;             /* what the row above added to the line below it */
+  CS_ARRAY(cs_defocus_halves, near); /* edges inside the kernel of the column */
+  /* the steps of edges that are left of the kernel from this column on */
+  CS_ARRAY(cs_defocus_passed, steps);
+  CS_ARRAY(cs_v4, below); /* what the row above added to the line below it */
 } cs_defocus_columns;
 
 /* near[k] += share * step for k < count, where the share goes from low[k] to high[k] as t goes from

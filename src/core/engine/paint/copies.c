@@ -80,7 +80,7 @@ static celspan_status add_piece(celspan_context *context, cs_copies_plan *plan,
     last->x1 = piece->x1;
     return CELSPAN_OK;
   }
-  CS_TRY(CS_RESERVE(context, plan->pieces, plan->capacity, plan->count + 1));
+  CS_TRY(CS_ARRAY_RESERVE(context, plan->pieces, plan->count + 1));
   plan->pieces[plan->count++] = *piece;
   return CELSPAN_OK;
 }
@@ -108,7 +108,7 @@ static bool has_items(const cs_copies_plan *plan, const cs_program *program) {
 static celspan_status set_key(celspan_context *context, const cs_program *program, cs_run run,
                               cs_copies_plan *plan) {
   plan->end_row = 0; /* invalid if a later step fails */
-  CS_TRY(CS_RESERVE(context, plan->items, plan->item_capacity, program->length));
+  CS_TRY(CS_ARRAY_RESERVE(context, plan->items, program->length));
   memcpy(plan->items, program->items, program->length * sizeof *plan->items);
   plan->length = program->length;
   plan->x0 = run.x0;

@@ -4,60 +4,27 @@
 
 /* ---------------------------------------------------------------- life */
 
-static celspan_status allocate(cs_painter *painter, void *field, size_t count, size_t size) {
-  void *items = cs_mem_array(painter->context->memory, count, size);
-  if (!items && count > 0)
-    return cs_fail_memory(painter->context);
-  memcpy(field, &items, sizeof items);
-  return CELSPAN_OK;
-}
-
 celspan_status cs_painter_init(cs_painter *painter, celspan_context *context, const cs_stack *stack,
                                const cs_composer *composer) {
   *painter =
       (cs_painter){.context = context, .composer = composer, .stack = stack, .isa = cs_isa_best()};
   cs_arena_init(&painter->scratch);
-  CS_TRY(allocate(painter, &painter->outers, cs_stack_depth(stack), sizeof(cs_over_outer)));
-  CS_TRY(allocate(painter, &painter->images, stack->image_count, sizeof(cs_image_view)));
-  CS_TRY(allocate(painter, &painter->blocks, stack->image_count > 0, sizeof(cs_block_cache)));
+  CS_TRY(CS_ARRAY_MAKE(context, painter->outers, cs_stack_depth(stack)));
+  CS_TRY(CS_ARRAY_MAKE(context, painter->images, stack->image_count));
+  CS_TRY(CS_ARRAY_MAKE(context, painter->blocks, stack->image_count > 0));
   if (painter->blocks)
     cs_block_cache_init(painter->blocks, context);
-  CS_TRY(allocate(painter, &painter->copies, stack->image_count > 0 ? CS_PAINTER_COPIES : 0,
-                  sizeof(cs_copies_plan)));
+  CS_TRY(CS_ARRAY_MAKE(context, painter->copies, stack->image_count > 0 ? CS_PAINTER_COPIES : 0));
   const bool may_vary = stack->image_count + stack->defocused_count > 0;
-  CS_TRY(allocate(painter, &painter->kept, may_vary ? CS_PAINTER_SHOWN : 0, sizeof(cs_shown_kept)));
-  CS_TRY(allocate(painter, &painter->defocused, stack->defocused_count, sizeof(cs_defocused_view)));
+  CS_TRY(CS_ARRAY_MAKE(context, painter->kept, may_vary ? CS_PAINTER_SHOWN : 0));
+  CS_TRY(CS_ARRAY_MAKE(context, painter->defocused, stack->defocused_count));
   if (stack->shade_count == 0)
     return CELSPAN_OK;
-  CS_TRY(allocate(painter, &painter->steady, stack->shade_count, sizeof(cs_painter_steady)));
+  CS_TRY(CS_ARRAY_MAKE(context, painter->steady, stack->shade_count));
   const bool may_fold = stack->shade_count > 1 && !stack->has_root; /* over_channels.h */
-  CS_TRY(allocate(painter, &painter->ahead, may_fold ? 2 : 0, sizeof(cs_over_channels_ahead)));
+  CS_TRY(CS_ARRAY_MAKE(context, painter->ahead, may_fold ? 2 : 0));
   return cs_gradient_tables_create(context, stack, painter->isa, &painter->scratch,
                                    &painter->gradients);
-}
-
-static void finish_copies(cs_painter *painter) {
-  cs_memory *memory = painter->context->memory;
-  for (size_t i = 0; painter->copies && i < CS_PAINTER_COPIES; i++) {
-    cs_copies_plan *plan = &painter->copies[i];
-    cs_mem_free(memory, plan->items, plan->item_capacity * sizeof *plan->items);
-    cs_mem_free(memory, plan->pieces, plan->capacity * sizeof *plan->pieces);
-  }
-  cs_mem_free(memory, painter->copies, CS_PAINTER_COPIES * sizeof *painter->copies);
-}
-
-static void finish_shown(cs_memory *memory, cs_shown *shown) {
-  cs_mem_free(memory, shown->items, shown->capacity * sizeof *shown->items);
-}
-
-static void finish_kept(cs_painter *painter) {
-  cs_memory *memory = painter->context->memory;
-  for (size_t i = 0; painter->kept && i < CS_PAINTER_SHOWN; i++) {
-    cs_shown_kept *kept = &painter->kept[i];
-    cs_mem_free(memory, kept->asked, kept->capacity * sizeof *kept->asked);
-    finish_shown(memory, &kept->shown);
-  }
-  cs_mem_free(memory, painter->kept, CS_PAINTER_SHOWN * sizeof *painter->kept);
 }
 
 void cs_painter_finish(cs_painter *painter) {
@@ -65,21 +32,20 @@ void cs_painter_finish(cs_painter *painter) {
     return;
   cs_memory *memory = painter->context->memory;
   const cs_stack *stack = painter->stack;
-  cs_mem_free(memory, painter->outers, cs_stack_depth(stack) * sizeof(cs_over_outer));
-  cs_mem_free(memory, painter->images, stack->image_count * sizeof(cs_image_view));
   if (painter->blocks)
     cs_block_cache_finish(painter->blocks);
-  cs_mem_free(memory, painter->blocks, sizeof(cs_block_cache));
   for (size_t i = 0; painter->defocused && i < stack->defocused_count; i++)
     cs_defocused_release(stack->defocused[i], painter->context, &painter->defocused[i]);
-  cs_mem_free(memory, painter->defocused, stack->defocused_count * sizeof(cs_defocused_view));
-  cs_mem_free(memory, painter->steady, stack->shade_count * sizeof *painter->steady);
-  cs_mem_free(memory, painter->ahead, 2 * sizeof *painter->ahead);
-  cs_gradient_tables_destroy(painter->gradients, memory);
+  for (size_t i = 0; i < painter->copies_room.capacity; i++)
+    CS_ARRAYS_FREE(memory, &painter->copies[i], items, pieces);
+  for (size_t i = 0; i < painter->kept_room.capacity; i++) {
+    CS_ARRAYS_FREE(memory, &painter->kept[i], asked, asked);
+    CS_ARRAYS_FREE(memory, &painter->kept[i].shown, items, items);
+  }
   for (int i = 0; i < 2; i++)
-    finish_shown(memory, &painter->shown[i]);
-  finish_kept(painter);
-  finish_copies(painter);
+    CS_ARRAYS_FREE(memory, &painter->shown[i], items, items);
+  CS_ARRAYS_FREE(memory, painter, outers, kept);
+  cs_gradient_tables_destroy(painter->gradients, memory);
   cs_arena_finish(&painter->scratch, memory);
   *painter = (cs_painter){0};
 }

@@ -35,8 +35,7 @@ typedef struct cs_image_view {
 
 /* The visible items of a program over some columns: shown.h. */
 typedef struct cs_shown {
-  cs_item *items; /* the items that are neither clear nor hidden there, front to back */
-  size_t capacity;
+  CS_ARRAY(cs_item, items); /* those that are neither clear nor hidden there, front to back */
   uint32_t length;
   bool ends_opaque; /* nothing shines through them */
   bool is_sure;     /* this is known of every part of the columns */
@@ -44,9 +43,8 @@ typedef struct cs_shown {
 
 /* What the columns show that a program was asked for last: shown.h. */
 typedef struct cs_shown_kept {
-  cs_item *asked; /* the items of the program */
-  size_t capacity;
-  uint32_t length; /* 0: of none */
+  CS_ARRAY(cs_item, asked); /* the items of the program */
+  uint32_t length;          /* 0: of none */
   int32_t stride;
   cs_run run; /* without columns: none are known */
   cs_shown shown;
@@ -64,13 +62,12 @@ typedef struct cs_copies_piece {
 
 /* The pieces of a run, on some rows. */
 typedef struct cs_copies_plan {
-  cs_item *items; /* the items of the program */
+  CS_ARRAY(cs_item, items); /* the items of the program */
+  CS_ARRAY(cs_copies_piece, pieces);
   uint32_t length;
-  size_t item_capacity;
   int32_t x0, x1, row, end_row;
   uint32_t fetches; /* the fetches of blocks, when it was made */
-  cs_copies_piece *pieces;
-  size_t count, capacity;
+  size_t count;
 } cs_copies_plan;
 
 /* Runs of copied pictures whose pieces are kept. */
@@ -89,19 +86,19 @@ typedef struct cs_painter {
   celspan_context *context;    /* the worker's branch */
   const cs_composer *composer; /* borrowed: its cells are painted; NULL: only programs are */
   const cs_stack *stack;
-  cs_over_outer *outers; /* scratch, of folds; cs_stack_depth */
-  cs_isa isa;            /* the instructions that loops over pixels are made with */
-  cs_image_view *images;
-  cs_block_cache *blocks; /* the blocks of its pictures; NULL without pictures */
-  cs_defocused_view *defocused;
-  cs_painter_steady *steady;            /* one for each shade */
-  struct cs_gradient_tables *gradients; /* NULL without formulas: gradient_table.h */
-  cs_over_channels_ahead *ahead;        /* two, or NULL: ahead.h */
-  int next_ahead;                       /* which of the two is replaced next */
-  cs_copies_plan *copies;               /* NULL without pictures: copies.c */
-  cs_arena scratch;                     /* the scratch of one run */
+  cs_isa isa;                      /* the instructions that loops over pixels are made with */
+  CS_ARRAY(cs_over_outer, outers); /* scratch, of folds; cs_stack_depth */
+  CS_ARRAY(cs_image_view, images);
+  CS_ARRAY(cs_block_cache, blocks); /* one: the blocks of its pictures; NULL without pictures */
+  CS_ARRAY(cs_defocused_view, defocused);
+  CS_ARRAY(cs_painter_steady, steady);     /* one for each shade */
+  CS_ARRAY(cs_over_channels_ahead, ahead); /* two, or NULL: ahead.h */
+  CS_ARRAY(cs_copies_plan, copies);        /* NULL without pictures: copies.c */
+  CS_ARRAY(cs_shown_kept, kept);           /* NULL without pictures and defocused cels: shown.h */
+  struct cs_gradient_tables *gradients;    /* NULL without formulas: gradient_table.h */
+  int next_ahead;                          /* which of the two is replaced next */
+  cs_arena scratch;                        /* the scratch of one run */
   cs_shown shown[2];    /* what the columns show that are painted now, and those right of them */
-  cs_shown_kept *kept;  /* NULL without pictures and defocused cels: shown.h */
   uint64_t examined;    /* runs of columns that shown.c has examined */
   uint64_t evaluations; /* pixels whose colour has been computed */
 } cs_painter;

@@ -117,7 +117,7 @@ celspan_status cs_shown_find(cs_painter *painter, const cs_program *program, cs_
   const cs_stack *stack = painter->stack;
   cs_over over;
   painter->examined++;
-  CS_TRY(CS_RESERVE(painter->context, out->items, out->capacity, program->length));
+  CS_TRY(CS_ARRAY_RESERVE(painter->context, out->items, program->length));
   out->length = 0;
   out->is_sure = true;
   out->ends_opaque = false;
@@ -158,7 +158,7 @@ celspan_status cs_shown_keep(cs_painter *painter, const cs_program *program, cs_
     return CELSPAN_OK;
   kept->length = 0;
   kept->run = (cs_run){0};
-  CS_TRY(CS_RESERVE(painter->context, kept->asked, kept->capacity, program->length));
+  CS_TRY(CS_ARRAY_RESERVE(painter->context, kept->asked, program->length));
   memcpy(kept->asked, program->items, program->length * sizeof *program->items);
   kept->length = program->length;
   kept->stride = cs_shown_stride(painter, program);

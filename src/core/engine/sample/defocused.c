@@ -13,17 +13,13 @@ static const cs_v4 colours = {1, 1, 1, 0};
 /* ---------------------------------------------------------------- bands */
 
 void cs_defocus_band_free(cs_defocus_band *band, cs_memory *memory) {
-  cs_mem_free(memory, band->nodes, band->node_count * sizeof *band->nodes);
-  cs_mem_free(memory, band->rows, band->row_capacity * sizeof *band->rows);
+  CS_ARRAYS_FREE(memory, band, nodes, rows);
   cs_node_row_free(&band->polyline, memory);
   *band = (cs_defocus_band){0};
 }
 
 size_t cs_defocus_band_bytes(const cs_defocus_band *band) {
-  return band->node_count * sizeof *band->nodes + band->row_capacity * sizeof *band->rows +
-         band->polyline.at_capacity * sizeof *band->polyline.at +
-         band->polyline.value_capacity * sizeof *band->polyline.values +
-         band->polyline.constant_capacity * sizeof *band->polyline.constant;
+  return CS_ARRAYS_BYTES(band, nodes, rows) + CS_ARRAYS_BYTES(&band->polyline, at, constant);
 }
 
 static const float (*band_row(const cs_defocused *defocused, const cs_defocus_band *band, int plane,
@@ -42,30 +38,17 @@ static cs_node_row band_nodes(const cs_defocused *defocused, const cs_defocus_ba
   return out;
 }
 
-/* Gives back the room that vertices did not need. */
-static void fit(cs_memory *memory, void **items, size_t *capacity, size_t count, size_t size) {
-  void *smaller = cs_mem_resize(memory, *items, *capacity * size, count * size);
-  if (!smaller)
-    return;
-  *items = smaller;
-  *capacity = count;
-}
-
 celspan_status cs_defocus_band_room(const cs_defocused *defocused, celspan_context *context,
                                     cs_defocus_band *band) {
   size_t count =
       (size_t)defocused->planes * (size_t)defocused->band_rows * (size_t)defocused->columns +
       BEYOND;
-  band->nodes = cs_mem_resize(context->memory, NULL, 0, count * sizeof *band->nodes);
-  if (!band->nodes)
-    return cs_fail_memory(context);
-  band->node_count = count;
-  return CELSPAN_OK;
+  return CS_ARRAY_FIT(context, band->nodes, count);
 }
 
 celspan_status cs_defocus_band_begin(celspan_context *context, int32_t rows,
                                      cs_defocus_band *band) {
-  CS_TRY(CS_RESERVE(context, band->rows, band->row_capacity, (size_t)rows + 1));
+  CS_TRY(CS_ARRAY_RESERVE(context, band->rows, (size_t)rows + 1));
   band->rows[0] = 0;
   band->row_count = 0;
   return CELSPAN_OK;
@@ -83,12 +66,11 @@ celspan_status cs_defocus_band_add(const cs_defocused *defocused, celspan_contex
   return CELSPAN_OK;
 }
 
-void cs_defocus_band_end(const cs_defocused *defocused, cs_memory *memory, cs_defocus_band *band) {
+celspan_status cs_defocus_band_end(const cs_defocused *defocused, celspan_context *context,
+                                   cs_defocus_band *band) {
   cs_node_polyline *polyline = &band->polyline;
-  fit(memory, (void **)&polyline->at, &polyline->at_capacity, polyline->count,
-      sizeof *polyline->at);
-  fit(memory, (void **)&polyline->values, &polyline->value_capacity,
-      polyline->count * (size_t)defocused->planes, sizeof *polyline->values);
+  CS_TRY(CS_ARRAY_FIT(context, polyline->at, polyline->count));
+  return CS_ARRAY_FIT(context, polyline->values, polyline->count * (size_t)defocused->planes);
 }
 
 /* ---------------------------------------------------------------- rows */
@@ -100,10 +82,6 @@ static void drop_band(const cs_defocused *defocused, celspan_context *context,
   view->bands[i] = NULL;
 }
 
-static size_t mixed_count(const cs_defocused *defocused) {
-  return (size_t)defocused->columns * (size_t)defocused->planes + BEYOND;
-}
-
 void cs_defocused_release(const cs_defocused *defocused, celspan_context *context,
                           cs_defocused_view *view) {
   drop_band(defocused, context, view, 0);
@@ -111,7 +89,7 @@ void cs_defocused_release(const cs_defocused *defocused, celspan_context *contex
   cs_node_row_free(&view->own, context->memory);
   if (defocused->mix)
     defocused->forget(context, view);
-  cs_mem_free(context->memory, view->mixed, mixed_count(defocused) * sizeof *view->mixed);
+  CS_ARRAYS_FREE(context->memory, view, mixed, mixed);
   *view = (cs_defocused_view){0};
 }
 
@@ -135,7 +113,8 @@ static celspan_status make_mixed(const cs_defocused *defocused, celspan_context 
   if (view->mixed)
     return CELSPAN_OK;
   view->visible = (cs_defocused_range){0, defocused->columns};
-  return CS_MAKE(context, view->mixed, mixed_count(defocused));
+  return CS_ARRAY_MAKE(context, view->mixed,
+                       (size_t)defocused->columns * (size_t)defocused->planes + BEYOND);
 }
 
 static celspan_status mix_rows(const cs_defocused *defocused, celspan_context *context,

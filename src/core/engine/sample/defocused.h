@@ -28,7 +28,7 @@
  */
 #pragma once
 
-#include "base/context.h"
+#include "base/arrays.h"
 #include "base/vector.h"
 #include "engine/sample/node_row.h"
 #include "engine/span/run.h"
@@ -43,11 +43,10 @@ typedef struct cs_defocused_nodes {
 /* A band: band_rows rows of nodes that are made and kept together, plane after plane or as
  * polylines. */
 typedef struct cs_defocus_band {
-  float (*nodes)[4]; /* NULL where they are polylines */
-  size_t node_count;
+  CS_ARRAY(float[4], nodes); /* NULL where they are polylines */
+  CS_ARRAY(size_t, rows);    /* the first vertex of each row, and the end: band_rows + 1 */
+  size_t row_count;
   cs_node_polyline polyline;
-  size_t *rows; /* the first vertex of each row, and the end: band_rows + 1 */
-  size_t row_count, row_capacity;
 } cs_defocus_band;
 
 /* Columns [first, end) of a row of nodes. */
@@ -88,7 +87,7 @@ typedef struct cs_defocused_view {
   const float (*values)[4];
   size_t count;
   cs_node_polyline own;
-  float (*mixed)[4];           /* a row of nodes, plane after plane */
+  CS_ARRAY(float[4], mixed);   /* a row of nodes, plane after plane */
   struct cs_regrid_rows *rows; /* only of mixed rows */
   cs_defocused_range visible;  /* the nodes of a row of pixels, or of a mixed one, that may not be
                                   clear */
@@ -111,7 +110,8 @@ CELSPAN_CHECKED celspan_status cs_defocus_band_add(const cs_defocused *defocused
                                                    celspan_context *context,
                                                    const cs_defocused_nodes *nodes,
                                                    cs_defocus_band *band);
-void cs_defocus_band_end(const cs_defocused *defocused, cs_memory *memory, cs_defocus_band *band);
+CELSPAN_CHECKED celspan_status cs_defocus_band_end(const cs_defocused *defocused,
+                                                   celspan_context *context, cs_defocus_band *band);
 /* How many groups a row of nodes has. */
 static inline int32_t cs_defocused_groups(const cs_defocused *defocused) {
   return (defocused->columns + CS_DEFOCUSED_GROUP - 1) / CS_DEFOCUSED_GROUP;

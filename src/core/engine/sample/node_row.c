@@ -14,9 +14,7 @@ typedef struct cs_node_stretch {
 } stretch;
 
 void cs_node_row_free(cs_node_polyline *polyline, cs_memory *memory) {
-  cs_mem_free(memory, polyline->at, polyline->at_capacity * sizeof *polyline->at);
-  cs_mem_free(memory, polyline->values, polyline->value_capacity * sizeof *polyline->values);
-  cs_mem_free(memory, polyline->constant, polyline->constant_capacity * sizeof *polyline->constant);
+  CS_ARRAYS_FREE(memory, polyline, at, constant);
   *polyline = (cs_node_polyline){0};
 }
 
@@ -165,9 +163,9 @@ celspan_status cs_node_row_append(celspan_context *context, cs_node_row *row,
   stretch found = {-1, -1};
   row->found = &found;
   size_t first = out->count, limit = first + (size_t)row->last + 1;
-  CS_TRY(CS_RESERVE(context, out->at, out->at_capacity, limit));
-  CS_TRY(CS_RESERVE(context, out->values, out->value_capacity, limit * (size_t)row->plane_count));
-  CS_TRY(CS_RESERVE(context, out->constant, out->constant_capacity, (size_t)row->last + 1));
+  CS_TRY(CS_ARRAY_RESERVE(context, out->at, limit));
+  CS_TRY(CS_ARRAY_RESERVE(context, out->values, limit * (size_t)row->plane_count));
+  CS_TRY(CS_ARRAY_RESERVE(context, out->constant, (size_t)row->last + 1));
   add_vertex(row, 0, out);
   for (int32_t i = 0; i < row->last;) {
     int32_t end = constant_end(row, i);

@@ -9,14 +9,14 @@
  */
 #pragma once
 
-#include "base/context.h"
+#include "base/arrays.h"
 
 /* Rows of nodes as polylines: equal values at two vertices are a constant stretch. */
 typedef struct cs_node_polyline {
-  int32_t *at;        /* nodes, ascending in each row, from the first to the last */
-  float (*values)[4]; /* of each vertex, plane after plane */
-  bool *constant;     /* scratch: of the row being made, which lines are constant */
-  size_t count, at_capacity, value_capacity, constant_capacity;
+  CS_ARRAY(int32_t, at);      /* nodes, ascending in each row, from the first to the last */
+  CS_ARRAY(float[4], values); /* of each vertex, plane after plane */
+  CS_ARRAY(bool, constant);   /* scratch: of the row being made, which lines are constant */
+  size_t count;
 } cs_node_polyline;
 
 /* In an even group of nodes all are equal, and only its first and its last one need to be there. */
