@@ -139,8 +139,8 @@ static inline celspan_status add_live(const swath *s, uint32_t number, const cs_
   const bool is_outside = box[1].x < 0;
   const cs_map_point *points = lines->points + f->first;
   uint32_t first = (uint32_t)rows->place_count, count = is_outside ? 2 : f->count;
-  CS_TRY(CS_RESERVE(s->context, rows->places, rows->place_capacity, first + count + 1));
-  CS_TRY(CS_RESERVE(s->context, rows->lives, rows->live_capacity, rows->live_count + 1));
+  CS_TRY(CS_ARRAY_RESERVE(s->context, rows->places, first + count + 1));
+  CS_TRY(CS_ARRAY_RESERVE(s->context, rows->lives, rows->live_count + 1));
   cs_map_live *live = &rows->lives[rows->live_count++];
   *live = (cs_map_live){.border = number,
                         .at = first,
@@ -232,7 +232,7 @@ static celspan_status add_parts(const cs_map_adding *a, const cs_map_live *live,
     const cs_map_part part = {side == 0 ? -change : change, side == 0 ? f->left : f->right, *head};
     if (drawing->map->cells[part.cell].length == 0)
       continue;
-    CS_TRY(CS_APPEND(a->context, all->parts, all->part_count, all->part_capacity, part));
+    CS_TRY(CS_ARRAY_APPEND(a->context, all->parts, all->part_count, part));
     *head = (uint32_t)all->part_count;
   }
   return CELSPAN_OK;

@@ -13,10 +13,9 @@ celspan_status cs_map_brush_place(celspan_context *context, cs_map_drawing *draw
   to->space = drawing->space;
   to->shades = NULL;
   to->images = NULL;
-  if (from->shade_count > 0)
-    CS_TRY(CS_MAKE(context, to->shades, from->shade_count));
-  if (from->image_count > 0)
-    CS_TRY(CS_MAKE(context, to->images, from->image_count));
+  to->shades_room = to->images_room = (cs_room){0};
+  CS_TRY(CS_ARRAY_MAKE(context, to->shades, from->shade_count));
+  CS_TRY(CS_ARRAY_MAKE(context, to->images, from->image_count));
   for (size_t i = 0; i < from->shade_count; i++) {
     to->shades[i] = from->shades[i];
     to->shades[i].inverse = celspan_matrix_then(drawing->to_raster, from->shades[i].inverse);
@@ -30,10 +29,8 @@ celspan_status cs_map_brush_place(celspan_context *context, cs_map_drawing *draw
 }
 
 void cs_map_brush_displace(cs_map_drawing *drawing, cs_memory *memory) {
-  cs_stack *stack = &drawing->stack;
-  cs_mem_free(memory, stack->shades, stack->shade_count * sizeof *stack->shades);
-  cs_mem_free(memory, stack->images, stack->image_count * sizeof *stack->images);
-  *stack = (cs_stack){0};
+  CS_ARRAYS_FREE(memory, &drawing->stack, shades, images);
+  drawing->stack = (cs_stack){0};
 }
 
 /* ---------------------------------------------------------------- life */

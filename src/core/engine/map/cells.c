@@ -4,13 +4,13 @@
 #include "engine/compose/over.h"
 
 void cs_map_cells_finish(cs_map_cells *cells, cs_memory *memory) {
-  cs_mem_free(memory, cells->table, cells->capacity * sizeof *cells->table);
+  CS_ARRAYS_FREE(memory, cells, table, table);
   *cells = (cs_map_cells){0};
 }
 
 void cs_map_cells_clear(cs_map_cells *cells) {
-  if (cells->capacity > 0)
-    memset(cells->table, 0, cells->capacity * sizeof *cells->table);
+  if (cells->table)
+    memset(cells->table, 0, CS_ARRAYS_BYTES(cells, table, table));
   cells->map->cell_count = cells->map->item_count = 0;
 }
 
@@ -37,7 +37,7 @@ static size_t place_of(const cs_map_cells *cells, cs_map_content what) {
   name = mix(name ^ media[0]) ^ media[1];
   for (uint32_t i = 0; i < what.length; i++)
     name = mix(name ^ what.items[i].layer);
-  return mix(words[0] ^ mix(words[1] ^ name)) & (cells->capacity - 1);
+  return mix(words[0] ^ mix(words[1] ^ name)) & (cells->table_room.capacity - 1);
 }
 
 /* ---------------------------------------------------------------- the table */
@@ -46,16 +46,13 @@ static size_t place_of(const cs_map_cells *cells, cs_map_content what) {
 static void place_cell(cs_map_cells *cells, uint32_t cell) {
   size_t at = place_of(cells, content_of(cells->map, cell));
   while (cells->table[at])
-    at = (at + 1) & (cells->capacity - 1);
+    at = (at + 1) & (cells->table_room.capacity - 1);
   cells->table[at] = cell + 1;
 }
 
 static celspan_status widen(celspan_context *context, cs_map_cells *cells) {
-  size_t capacity = cells->capacity > 0 ? 2 * cells->capacity : 256;
-  cs_mem_free(context->memory, cells->table, cells->capacity * sizeof *cells->table);
-  cells->capacity = 0;
-  CS_TRY(CS_MAKE(context, cells->table, capacity));
-  cells->capacity = capacity;
+  size_t capacity = 2 * (size_t)cells->table_room.capacity;
+  CS_TRY(CS_ARRAY_MAKE(context, cells->table, capacity > 0 ? capacity : 256));
   for (size_t i = 0; i < cells->map->cell_count; i++)
     place_cell(cells, (uint32_t)i);
   return CELSPAN_OK;
@@ -66,7 +63,7 @@ static celspan_status add_cell(celspan_context *context, cs_map *map, cs_map_con
                                uint32_t *out) {
   *out = (uint32_t)map->cell_count;
   map->is_whole = map->cell_count < CS_MAP_CELLS && map->item_count + what.length < UINT32_MAX;
-  CS_TRY(CS_RESERVE(context, map->items, map->item_capacity, map->item_count + what.length));
+  CS_TRY(CS_ARRAY_RESERVE(context, map->items, map->item_count + what.length));
   if (what.length > 0)
     memcpy(map->items + map->item_count, what.items, what.length * sizeof *what.items);
   const cs_map_cell cell = {.colour = what.colour,
@@ -74,19 +71,19 @@ static celspan_status add_cell(celspan_context *context, cs_map *map, cs_map_con
                             .item = (uint32_t)map->item_count,
                             .length = what.length};
   if (map->is_coloured) {
-    CS_TRY(CS_RESERVE(context, map->through, map->through_capacity, map->cell_count + 1));
+    CS_TRY(CS_ARRAY_RESERVE(context, map->through, map->cell_count + 1));
     map->through[map->cell_count] = what.through;
   }
   map->item_count += what.length;
-  return CS_APPEND(context, map->cells, map->cell_count, map->cell_capacity, cell);
+  return CS_ARRAY_APPEND(context, map->cells, map->cell_count, cell);
 }
 
 celspan_status cs_map_cells_find(celspan_context *context, cs_map_cells *cells, cs_map_content what,
                                  uint32_t *out) {
-  if (2 * cells->map->cell_count >= cells->capacity)
+  if (2 * cells->map->cell_count >= cells->table_room.capacity)
     CS_TRY(widen(context, cells));
   size_t at = place_of(cells, what);
-  for (; cells->table[at]; at = (at + 1) & (cells->capacity - 1))
+  for (; cells->table[at]; at = (at + 1) & (cells->table_room.capacity - 1))
     if (is_content(content_of(cells->map, cells->table[at] - 1), what)) {
       *out = cells->table[at] - 1;
       return CELSPAN_OK;

@@ -8,9 +8,8 @@
 #include "engine/map/map.h"
 
 typedef struct cs_map_cells {
-  cs_map *map;     /* borrowed */
-  uint32_t *table; /* the number of a cell plus 1; 0: free. A power of two */
-  size_t capacity;
+  cs_map *map;               /* borrowed */
+  CS_ARRAY(uint32_t, table); /* the number of a cell plus 1; 0: free. A power of two */
 } cs_map_cells;
 
 /* The contents of a cell: a colour where length is 0, otherwise a program. */

@@ -4,9 +4,7 @@
 #include "model/geometry/cover.h"
 
 void cs_map_exact_finish(cs_map_exact *exact, cs_memory *memory) {
-  cs_mem_free(memory, exact->lines, exact->line_capacity * sizeof *exact->lines);
-  cs_mem_free(memory, exact->heights, exact->height_capacity * sizeof *exact->heights);
-  cs_mem_free(memory, exact->order, exact->order_capacity * sizeof *exact->order);
+  CS_ARRAYS_FREE(memory, exact, lines, order);
   *exact = (cs_map_exact){0};
 }
 
@@ -14,7 +12,7 @@ void cs_map_exact_finish(cs_map_exact *exact, cs_memory *memory) {
 
 static celspan_status append(celspan_context *context, cs_map_exact *exact,
                              const cs_map_line *line) {
-  return CS_APPEND(context, exact->lines, exact->line_count, exact->line_capacity, *line);
+  return CS_ARRAY_APPEND(context, exact->lines, exact->line_count, *line);
 }
 
 static celspan_status add_piece(celspan_context *context, cs_map_exact *exact,
@@ -333,8 +331,8 @@ celspan_status cs_map_exact_mean(celspan_context *context, cs_map_exact *exact,
   cs_v4d mean = {{0, 0}, {0, 0}};
   size_t lines = exact->line_count;
   size_t most = lines > CS_MAP_EXACT_LINES ? CS_MAP_EXACT_LINES + 1 : lines * (lines + 3) / 2 + 2;
-  CS_TRY(CS_RESERVE(context, exact->heights, exact->height_capacity, most));
-  CS_TRY(CS_RESERVE(context, exact->order, exact->order_capacity, lines + 1));
+  CS_TRY(CS_ARRAY_RESERVE(context, exact->heights, most));
+  CS_TRY(CS_ARRAY_RESERVE(context, exact->order, lines + 1));
   if (lines > CS_MAP_EXACT_LINES)
     space_heights(exact);
   else

@@ -38,11 +38,11 @@ typedef struct cs_map_line {
 } cs_map_line;
 
 typedef struct cs_map_exact {
-  cs_map_line *lines;
-  double *heights;
-  cs_map_line **order;
+  CS_ARRAY(cs_map_line, lines);
+  CS_ARRAY(double, heights);
+  CS_ARRAY(cs_map_line *, order);
   bool is_coloured; /* one of the drawings is coloured; else -step[3] is the transmission */
-  size_t line_count, line_capacity, height_count, height_capacity, order_capacity;
+  size_t line_count, height_count;
 } cs_map_exact;
 
 /* One of the drawings that can be shown in the pixel. */

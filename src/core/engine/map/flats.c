@@ -33,8 +33,8 @@ CS_SORT_DEFINE(sort_changes, change, is_before)
 typedef struct finder {
   celspan_context *context;
   cs_map *map;
-  change *pairs;
-  size_t pair_count, pair_capacity;
+  CS_ARRAY(change, pairs);
+  size_t pair_count;
 } finder;
 
 static void list_changes(const cs_map_lines *lines, change *out) {
@@ -61,9 +61,8 @@ static celspan_status join(finder *f, change next) {
     f->pairs[i] = f->pairs[--f->pair_count];
     i = 0;
   }
-  return next.minus == next.plus
-             ? CELSPAN_OK
-             : CS_APPEND(f->context, f->pairs, f->pair_count, f->pair_capacity, next);
+  return next.minus == next.plus ? CELSPAN_OK
+                                 : CS_ARRAY_APPEND(f->context, f->pairs, f->pair_count, next);
 }
 
 /* The boundaries between two places of one height. */
@@ -71,7 +70,7 @@ static celspan_status add_flats(finder *f, cs_map_point from, int32_t to) {
   cs_map *map = f->map;
   for (size_t i = 0; i < f->pair_count; i++) {
     const cs_map_flat flat = {f->pairs[i].minus, f->pairs[i].plus, from.y, from.x, to};
-    CS_TRY(CS_APPEND(f->context, map->flats, map->flat_count, map->flat_capacity, flat));
+    CS_TRY(CS_ARRAY_APPEND(f->context, map->flats, map->flat_count, flat));
   }
   return CELSPAN_OK;
 }
@@ -97,7 +96,7 @@ celspan_status cs_map_find_flats(celspan_context *context, cs_map *map) {
   list_changes(&map->lines, changes);
   sort_changes(changes, count);
   celspan_status status = visit(&f, changes, count);
-  cs_mem_free(context->memory, f.pairs, f.pair_capacity * sizeof *f.pairs);
+  CS_ARRAYS_FREE(context->memory, &f, pairs, pairs);
   cs_mem_free(context->memory, changes, count * sizeof *changes);
   return status;
 }

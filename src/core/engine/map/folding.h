@@ -17,10 +17,10 @@ typedef struct cs_map_maker {
   celspan_context *context;  /* borrowed: the worker's branch */
   const cs_map_frame *frame; /* borrowed */
   cs_map_sums sums;
-  cs_map_rows *rows;     /* one for each sheet */
-  cs_map_brush *brushes; /* one for each sheet */
-  cs_map_swept *swept;   /* one for each sheet, used by the swept sheets */
-  int32_t row;           /* the first row of the swath that is in `rows`; -1: none is */
+  CS_ARRAY(cs_map_rows, rows);     /* one for each sheet */
+  CS_ARRAY(cs_map_brush, brushes); /* one for each sheet */
+  CS_ARRAY(cs_map_swept, swept);   /* one for each sheet, used by the swept sheets */
+  int32_t row;                     /* the first row of the swath that is in `rows`; -1: none is */
   cs_map_exact exact;
   cs_row painted; /* a run of the only sheet that varies */
   bool varies;    /* a cell of a sheet varies, or a sheet is coloured */

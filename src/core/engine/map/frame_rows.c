@@ -18,11 +18,9 @@ celspan_status cs_map_maker_init(cs_map_maker *maker, celspan_context *context,
                                  const cs_map_frame *frame) {
   *maker = (cs_map_maker){.context = context, .frame = frame, .row = -1};
   CS_TRY(cs_map_sums_init(context, frame->width, &maker->sums));
-  if (frame->count == 0)
-    return CELSPAN_OK;
-  CS_TRY(CS_MAKE(context, maker->rows, frame->count));
-  CS_TRY(CS_MAKE(context, maker->brushes, frame->count));
-  CS_TRY(CS_MAKE(context, maker->swept, frame->count));
+  CS_TRY(CS_ARRAY_MAKE(context, maker->rows, frame->count));
+  CS_TRY(CS_ARRAY_MAKE(context, maker->brushes, frame->count));
+  CS_TRY(CS_ARRAY_MAKE(context, maker->swept, frame->count));
   for (size_t i = 0; i < frame->count; i++) {
     const cs_map_sheet *sheet = &frame->sheets[i];
     const cs_map_drawing *drawing = sheet->plan ? &maker->swept[i].drawing : &sheet->drawing;
@@ -46,9 +44,7 @@ void cs_map_maker_finish(cs_map_maker *maker) {
     cs_map_brush_finish(&maker->brushes[i]);
   for (size_t i = 0; maker->swept && i < maker->frame->count; i++)
     cs_map_swept_finish(&maker->swept[i]);
-  cs_mem_free(memory, maker->rows, maker->frame->count * sizeof *maker->rows);
-  cs_mem_free(memory, maker->brushes, maker->frame->count * sizeof *maker->brushes);
-  cs_mem_free(memory, maker->swept, maker->frame->count * sizeof *maker->swept);
+  CS_ARRAYS_FREE(memory, maker, rows, swept);
   cs_row_finish(&maker->painted, memory);
   cs_map_sums_finish(&maker->sums, memory);
   cs_map_exact_finish(&maker->exact, memory);

@@ -59,21 +59,15 @@ void cs_map_unref(cs_map *map) {
     return;
   cs_memory *memory = map->memory;
   cs_map_lines_finish(&map->lines, memory);
-  cs_mem_free(memory, map->flats, map->flat_capacity * sizeof *map->flats);
-  cs_mem_free(memory, map->cells, map->cell_capacity * sizeof *map->cells);
-  cs_mem_free(memory, map->through, map->through_capacity * sizeof *map->through);
-  cs_mem_free(memory, map->items, map->item_capacity * sizeof *map->items);
+  CS_ARRAYS_FREE(memory, map, flats, items);
   free_stack(&map->stack, memory);
   cs_mem_free(memory, map, sizeof *map);
   cs_memory_unref(memory);
 }
 
 size_t cs_map_bytes(const cs_map *map) {
-  return sizeof *map + map->lines.border_capacity * sizeof *map->lines.borders +
-         map->lines.point_capacity * sizeof *map->lines.points +
-         map->flat_capacity * sizeof *map->flats + map->cell_capacity * sizeof *map->cells +
-         map->through_capacity * sizeof *map->through + map->item_capacity * sizeof *map->items +
-         cs_stack_bytes(&map->stack);
+  return sizeof *map + CS_ARRAYS_BYTES(&map->lines, borders, points) +
+         CS_ARRAYS_BYTES(map, flats, items) + cs_stack_bytes(&map->stack);
 }
 
 static void finish(maker *m) {
@@ -133,9 +127,10 @@ static int32_t unit_at(const cs_course_point *from, int32_t y) {
 /* Borders that have no points of their own yet, chain by chain: `first` is, among the points of all
  * courses, where the segment at the top begins. */
 typedef struct drafts {
-  cs_map_border *borders;
-  cs_map_point *tops;
-  size_t count, capacity, point_count;
+  CS_ARRAY(cs_map_border, borders);
+  CS_ARRAY(cs_map_point, tops);
+  CS_ARRAY(uint64_t, keys); /* of the order that is being made */
+  size_t count, point_count;
 } drafts;
 
 static inline void extend(cs_map_border *border, int32_t x) {
@@ -179,24 +174,23 @@ static void measure_part(const maker *m, const cs_events_part *part, drafts *out
   }
 }
 
-/* Measures the parts, chain by chain: the order must not depend on the zones that were swept. */
+/* Measures the parts, chain by chain: the order must not depend on the zones that were swept. Then
+ * there is room for a key of each border. */
 static celspan_status measure_parts(const maker *m, drafts *out) {
   const cs_events *events = &m->events;
   const int32_t zone = m->map->zone * CS_MAP_UNIT;
-  size_t count = events->part_count;
-  uint64_t *keys;
+  size_t count = events->part_count, most = 1;
   for (size_t i = 0; i < count; i++)
-    out->capacity += (size_t)((events->parts[i].foot - 1) / zone - events->parts[i].top / zone + 1);
-  CS_TRY(CS_MAKE(m->context, out->borders, out->capacity + 1));
-  CS_TRY(CS_MAKE(m->context, out->tops, out->capacity + 1));
-  CS_TRY(CS_MAKE(m->context, keys, count + 1));
+    most += (size_t)((events->parts[i].foot - 1) / zone - events->parts[i].top / zone + 1);
+  CS_TRY(CS_ARRAY_MAKE(m->context, out->borders, most));
+  CS_TRY(CS_ARRAY_MAKE(m->context, out->tops, most));
+  CS_TRY(CS_ARRAY_MAKE(m->context, out->keys, count + 1));
   for (size_t i = 0; i < count; i++)
-    keys[i] = cs_key((int32_t)events->parts[i].course, i);
-  celspan_status status = cs_keys_sort(m->context, keys, count);
-  for (size_t i = 0; i < count && status == CELSPAN_OK; i++)
-    measure_part(m, &events->parts[cs_key_number(keys[i])], out);
-  cs_mem_free(m->context->memory, keys, (count + 1) * sizeof *keys);
-  return status;
+    out->keys[i] = cs_key((int32_t)events->parts[i].course, i);
+  CS_TRY(cs_keys_sort(m->context, out->keys, count));
+  for (size_t i = 0; i < count; i++)
+    measure_part(m, &events->parts[cs_key_number(out->keys[i])], out);
+  return CS_ARRAY_MAKE(m->context, out->keys, out->count + 1);
 }
 
 /* Adds a border with its points, for which there is room. */
@@ -214,30 +208,24 @@ static void add_border(maker *m, cs_map_border border, cs_map_point top) {
   lines->borders[lines->border_count++] = border;
 }
 
-/* Adds the borders in the order in which rows need them. keys: room for one each. */
-static celspan_status add_in_order(maker *m, const drafts *all, uint64_t *keys) {
+/* Adds the borders in the order in which rows need them. */
+static celspan_status add_in_order(maker *m, const drafts *all) {
   cs_map_lines *lines = &m->map->lines;
-  CS_TRY(cs_map_lines_order(m->context, all->tops, all->count, keys));
+  CS_TRY(cs_map_lines_order(m->context, all->tops, all->count, all->keys));
   CS_TRY(cs_map_lines_make(m->context, all->count, all->point_count, lines));
   for (size_t i = 0; i < all->count; i++) {
-    const uint32_t number = cs_key_number(keys[i]);
+    const uint32_t number = cs_key_number(all->keys[i]);
     add_border(m, all->borders[number], all->tops[number]);
   }
   return CELSPAN_OK;
 }
 
 static celspan_status add_borders(maker *m) {
-  cs_memory *memory = m->context->memory;
   drafts all = {0};
-  uint64_t *keys = NULL;
   celspan_status status = measure_parts(m, &all);
-  if (status == CELSPAN_OK)
-    status = CS_MAKE(m->context, keys, all.count + 1);
   if (status == CELSPAN_OK && all.count > 0)
-    status = add_in_order(m, &all, keys);
-  cs_mem_free(memory, keys, (all.count + 1) * sizeof *keys);
-  cs_mem_free(memory, all.tops, (all.capacity + 1) * sizeof *all.tops);
-  cs_mem_free(memory, all.borders, (all.capacity + 1) * sizeof *all.borders);
+    status = add_in_order(m, &all);
+  CS_ARRAYS_FREE(m->context->memory, &all, borders, keys);
   return status;
 }
 

@@ -59,10 +59,9 @@ typedef struct cs_map_border {
 } cs_map_border;
 
 typedef struct cs_map_lines {
-  cs_map_border *borders; /* by their first points */
-  cs_map_point *points;
-  size_t border_count, border_capacity;
-  size_t point_count, point_capacity;
+  CS_ARRAY(cs_map_border, borders); /* by their first points */
+  CS_ARRAY(cs_map_point, points);
+  size_t border_count, point_count;
 } cs_map_lines;
 
 /* A flat boundary, from `from` to `to` on the right of it. */
@@ -81,16 +80,14 @@ typedef struct cs_map {
   int32_t height, zone; /* pixels of the raster, and of a zone */
   uint64_t missing;     /* bit k: zone k was requested, but has too many windings */
   cs_map_lines lines;
-  cs_map_flat *flats; /* only of a map that is turned */
-  cs_map_cell *cells;
+  CS_ARRAY(cs_map_flat, flats); /* only of a map that is turned */
+  CS_ARRAY(cs_map_cell, cells);
   /* Of a coloured map: the transmission of each cell; lane 3: its mean; 0 where the cell varies.
    * NULL for other maps. */
-  cs_v4 *through;
-  cs_item *items; /* the items of the programs */
-  cs_stack stack; /* the stack that the programs refer to; empty if all cells are flat */
-  size_t flat_count, flat_capacity;
-  size_t cell_count, cell_capacity, through_capacity;
-  size_t item_count, item_capacity;
+  CS_ARRAY(cs_v4, through);
+  CS_ARRAY(cs_item, items); /* the items of the programs */
+  cs_stack stack;           /* the stack that the programs refer to; empty if all cells are flat */
+  size_t flat_count, cell_count, item_count;
 } cs_map;
 
 void cs_map_lines_finish(cs_map_lines *lines, cs_memory *memory);

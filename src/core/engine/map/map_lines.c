@@ -3,8 +3,7 @@
 #include "engine/map/map.h"
 
 void cs_map_lines_finish(cs_map_lines *lines, cs_memory *memory) {
-  cs_mem_free(memory, lines->borders, lines->border_capacity * sizeof *lines->borders);
-  cs_mem_free(memory, lines->points, lines->point_capacity * sizeof *lines->points);
+  CS_ARRAYS_FREE(memory, lines, borders, points);
   *lines = (cs_map_lines){0};
 }
 
@@ -39,12 +38,8 @@ celspan_status cs_map_lines_order(celspan_context *context, const cs_map_point *
 
 celspan_status cs_map_lines_make(celspan_context *context, size_t borders, size_t points,
                                  cs_map_lines *out) {
-  cs_memory *memory = context->memory;
-  out->border_capacity = borders;
-  out->point_capacity = points;
-  out->borders = cs_mem_resize(memory, NULL, 0, borders * sizeof *out->borders);
-  out->points = cs_mem_resize(memory, NULL, 0, points * sizeof *out->points);
-  return out->borders && out->points ? CELSPAN_OK : cs_fail_memory(context);
+  CS_TRY(CS_ARRAY_FIT(context, out->borders, borders));
+  return CS_ARRAY_FIT(context, out->points, points);
 }
 
 /* Copies the borders in their order, each with its points. keys: room for one each. */

@@ -24,7 +24,7 @@ celspan_status cs_map_near_find(celspan_context *context, cs_map_rows *rows) {
   const int32_t tiles = (rows->width - 1) / CS_MAP_TILE + 1;
   rows->near_words = (rows->live_count + 63) / 64;
   const size_t needed = (size_t)tiles * rows->near_words;
-  CS_TRY(CS_RESERVE(context, rows->near, rows->near_capacity, needed));
+  CS_TRY(CS_ARRAY_RESERVE(context, rows->near, needed));
   if (needed > 0)
     memset(rows->near, 0, needed * sizeof *rows->near);
   for (size_t i = 0; i < rows->live_count; i++) {

@@ -155,8 +155,8 @@ static celspan_status add_area(reader *r, const cs_map_part *part) {
   while (i < rows->area_count && rows->areas[i].cell != part->cell)
     i++;
   if (i == rows->area_count)
-    CS_TRY(CS_APPEND(r->context, rows->areas, rows->area_count, rows->area_capacity,
-                     (cs_map_area){.cell = part->cell}));
+    CS_TRY(CS_ARRAY_APPEND(r->context, rows->areas, rows->area_count,
+                           (cs_map_area){.cell = part->cell}));
   rows->areas[i].area += part->change;
   return CELSPAN_OK;
 }
@@ -179,8 +179,7 @@ static celspan_status add_shares(reader *r) {
   cs_map_rows *rows = r->rows;
   cs_map_span *span = r->last;
   span->share = (uint32_t)rows->share_count;
-  CS_TRY(CS_RESERVE(r->context, rows->shares, rows->share_capacity,
-                    rows->share_count + rows->area_count));
+  CS_TRY(CS_ARRAY_RESERVE(r->context, rows->shares, rows->share_count + rows->area_count));
   for (size_t i = 0; i < rows->area_count; i++)
     rows->shares[rows->share_count++] = (cs_map_share){
         rows->areas[i].cell, (float)((double)rows->areas[i].area * (1.0 / CS_MAP_HEIGHT))};
@@ -212,7 +211,7 @@ static inline celspan_status put(reader *r, int32_t column) {
 static celspan_status begin_row(reader *r, int32_t width) {
   cs_map_rows *rows = r->rows;
   size_t first = rows->span_count;
-  CS_TRY(CS_RESERVE(r->context, rows->spans, rows->span_capacity, first + (size_t)width));
+  CS_TRY(CS_ARRAY_RESERVE(r->context, rows->spans, first + (size_t)width));
   r->first = rows->spans + first;
   r->last = r->first - 1;
   r->pixel = clear_pixel(rows, r->colours);

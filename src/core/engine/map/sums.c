@@ -9,42 +9,28 @@ static size_t sums_size(const cs_map_sums *sums) {
   return CS_MAP_ROWS * ((size_t)sums->width + 1) * sizeof *sums->sums;
 }
 
-static size_t storage_size(const cs_map_sums *sums) { return CS_WIDE_LINE + sums_size(sums); }
-
-/* One word more than the rows need, because bits are marked four bytes at a time. */
-static size_t bit_words(const cs_map_sums *sums) { return CS_MAP_ROWS * sums->words + 1; }
-
 celspan_status cs_map_sums_init(celspan_context *context, int32_t width, cs_map_sums *out) {
   *out = (cs_map_sums){
       .isa = cs_isa_best(), .width = width, .words = ((size_t)width / 64 + 4) / 4 * 4};
-  out->storage = cs_mem_array(context->memory, storage_size(out), 1);
-  if (!out->storage)
-    return cs_fail_memory(context);
+  CS_TRY(CS_ARRAY_MAKE(context, out->storage, CS_WIDE_LINE + sums_size(out)));
   out->sums = cs_wide_align(out->storage);
-  return CS_MAKE(context, out->bits, bit_words(out));
+  /* one word more than the rows need, because bits are marked four bytes at a time */
+  return CS_ARRAY_MAKE(context, out->bits, CS_MAP_ROWS * out->words + 1);
 }
 
 void cs_map_sums_finish(cs_map_sums *sums, cs_memory *memory) {
-  cs_mem_free(memory, sums->storage, storage_size(sums));
-  cs_mem_free(memory, sums->bits, bit_words(sums) * sizeof *sums->bits);
-  cs_mem_free(memory, sums->parts, sums->part_capacity * sizeof *sums->parts);
+  CS_ARRAYS_FREE(memory, sums, storage, parts);
   *sums = (cs_map_sums){0};
 }
 
 void cs_map_rows_finish(cs_map_rows *rows, cs_memory *memory) {
-  cs_mem_free(memory, rows->lives, rows->live_capacity * sizeof *rows->lives);
-  cs_mem_free(memory, rows->places, rows->place_capacity * sizeof *rows->places);
-  cs_mem_free(memory, rows->spans, rows->span_capacity * sizeof *rows->spans);
-  cs_mem_free(memory, rows->through, rows->through_capacity * sizeof *rows->through);
-  cs_mem_free(memory, rows->shares, rows->share_capacity * sizeof *rows->shares);
-  cs_mem_free(memory, rows->areas, rows->area_capacity * sizeof *rows->areas);
-  cs_mem_free(memory, rows->near, rows->near_capacity * sizeof *rows->near);
+  CS_ARRAYS_FREE(memory, rows, lives, near);
   *rows = (cs_map_rows){0};
 }
 
 static void clear(cs_map_sums *sums) {
   memset(sums->sums, 0, sums_size(sums));
-  memset(sums->bits, 0, bit_words(sums) * sizeof *sums->bits);
+  memset(sums->bits, 0, CS_ARRAYS_BYTES(sums, bits, bits));
   sums->unread = 0;
 }
 
@@ -92,7 +78,7 @@ static celspan_status make_through(const cs_map_adding *a) {
   cs_map_rows *rows = a->rows;
   find_steps(rows, rows->drawing->through);
   CS_TRY(make_rows(a, rows->drawing->through));
-  CS_TRY(CS_RESERVE(a->context, rows->through, rows->through_capacity, rows->span_count));
+  CS_TRY(CS_ARRAY_RESERVE(a->context, rows->through, rows->span_count));
   for (size_t i = 0; i < rows->span_count; i++)
     rows->through[i] = rows->spans[i].colour;
   find_steps(rows, rows->drawing->colours);

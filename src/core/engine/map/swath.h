@@ -34,10 +34,11 @@ typedef struct cs_map_drawing {
   cs_v4 light;              /* the light that falls on the drawing; lane 3: its opacity */
   const cs_grade *grade;    /* NULL: none. Borrowed from the scene */
   celspan_space space;
-  cs_v4 *colours; /* the colours of its cells, in the frame's light; 0 where they vary; owned */
+  /* the colours of its cells, in the frame's light; 0 where they vary; owned */
+  CS_ARRAY(cs_v4, colours);
   /* the light that each cell transmits, faded; lane 3: the mean; 0 where the cell varies. Only of a
    * coloured map; NULL for other maps. Owned. */
-  cs_v4 *through;
+  CS_ARRAY(cs_v4, through);
   cs_stack stack; /* the stack of the map, on the pixels of the frame: shades and images are owned,
                      the rest belongs to the map */
 } cs_map_drawing;
@@ -75,26 +76,24 @@ typedef struct cs_map_area {
 
 /* The rows of a drawing in the current swath. */
 typedef struct cs_map_rows {
-  const cs_map_drawing *drawing; /* borrowed */
-  struct cs_map_brush *brush;    /* the brush of the cells that vary: brush.h. Borrowed */
-  int32_t row;                   /* the first row; -1: no rows have been made */
-  bool has_back;                 /* where it is clear, something may still be added */
-  uint32_t next;                 /* all borders before this one have been visited */
-  cs_map_live *lives;            /* the borders that are crossed, in the order of the map */
-  cs_map_point *places; /* the places of their points on the frame, in UNITths of a pixel */
-  cs_map_span *spans;
-  cs_v4 *through;                /* of a coloured drawing: the light that the flat part of each span
-                                    lets through */
+  const cs_map_drawing *drawing;  /* borrowed */
+  struct cs_map_brush *brush;     /* the brush of the cells that vary: brush.h. Borrowed */
+  int32_t row;                    /* the first row; -1: no rows have been made */
+  bool has_back;                  /* where it is clear, something may still be added */
+  uint32_t next;                  /* all borders before this one have been visited */
+  CS_ARRAY(cs_map_live, lives);   /* the borders that are crossed, in the order of the map */
+  CS_ARRAY(cs_map_point, places); /* of their points on the frame, in UNITths of a pixel */
+  CS_ARRAY(cs_map_span, spans);
+  /* of a coloured drawing: the light that the flat part of each span lets through */
+  CS_ARRAY(cs_v4, through);
+  CS_ARRAY(cs_map_share, shares);
+  CS_ARRAY(cs_map_area, areas);  /* of the pixel that is being read: the areas that are not 0 */
+  CS_ARRAY(uint64_t, near);      /* filled by near.c, if has_near */
   size_t first[CS_MAP_ROWS + 1]; /* the first span of each row, and the end of the last row's
                                     spans */
-  cs_map_share *shares;
-  cs_map_area *areas; /* the areas of the pixel that is being read: the areas that are not 0 */
-  size_t live_count, live_capacity, place_count, place_capacity, span_count, span_capacity;
-  int32_t width;  /* the width of the frame */
-  uint64_t *near; /* filled by near.c, if has_near */
-  size_t near_words, near_capacity;
+  size_t live_count, place_count, span_count, share_count, area_count, near_words;
+  int32_t width; /* the width of the frame */
   bool has_near;
-  size_t share_count, share_capacity, area_count, area_capacity, through_capacity;
 } cs_map_rows;
 
 /* By how much a pixel exceeds the pixel on its left. Its size is half a line of the cache. */
@@ -118,10 +117,10 @@ typedef struct cs_map_sums {
   cs_isa isa;
   int32_t width;    /* pixels of a row; there is one more column, which is not read */
   size_t words;     /* the words of a row of bits: a multiple of four */
-  void *storage;    /* the storage of the sums, which lie on lines of the cache */
   cs_map_sum *sums; /* column by column */
-  uint64_t *bits;   /* row by row: the pixels to which something was added */
   uint32_t unread;  /* one bit for each row that has not been cleared yet */
-  cs_map_part *parts;
-  size_t part_count, part_capacity;
+  CS_ARRAY(unsigned char, storage); /* of the sums, which lie on lines of the cache */
+  CS_ARRAY(uint64_t, bits);         /* row by row: the pixels to which something was added */
+  CS_ARRAY(cs_map_part, parts);
+  size_t part_count;
 } cs_map_sums;

@@ -28,11 +28,9 @@ void cs_map_swept_finish(cs_map_swept *swept) {
   cs_memory *memory = swept->maker.context->memory;
   cs_map *map = &swept->map;
   cs_map_lines_finish(&map->lines, memory);
-  cs_mem_free(memory, map->cells, map->cell_capacity * sizeof *map->cells);
-  cs_mem_free(memory, map->items, map->item_capacity * sizeof *map->items);
-  cs_mem_free(memory, swept->drawing.colours,
-              swept->colour_capacity * sizeof *swept->drawing.colours);
-  cs_mem_free(memory, swept->numbers, swept->number_capacity * sizeof *swept->numbers);
+  CS_ARRAYS_FREE(memory, map, flats, items);
+  CS_ARRAYS_FREE(memory, &swept->drawing, colours, colours);
+  CS_ARRAYS_FREE(memory, swept, numbers, numbers);
   cs_map_cells_finish(&swept->cells, memory);
   cs_retained_finish(&swept->retained, memory);
   cs_row_maker_finish(&swept->maker);
@@ -56,11 +54,11 @@ static celspan_status add_border(cs_map_swept *swept, const cs_border *edge) {
   size_t first = lines->point_count;
   if (left == right || ends[0].y >= ends[1].y)
     return CELSPAN_OK;
-  CS_TRY(CS_RESERVE(context, lines->points, lines->point_capacity, first + 2));
+  CS_TRY(CS_ARRAY_RESERVE(context, lines->points, first + 2));
   memcpy(lines->points + first, ends, sizeof ends);
   lines->point_count += 2;
   const cs_map_border border = cs_map_lines_border(lines, first, left, right);
-  return CS_APPEND(context, lines->borders, lines->border_count, lines->border_capacity, border);
+  return CS_ARRAY_APPEND(context, lines->borders, lines->border_count, border);
 }
 
 /* ---------------------------------------------------------------- a swath */
@@ -75,7 +73,7 @@ static cs_map_content content_of(const cs_retained_row *retained, const cs_cell 
 static celspan_status number_cells(cs_map_swept *swept) {
   const cs_retained_row *retained = &swept->retained;
   celspan_context *context = swept->maker.context;
-  CS_TRY(CS_RESERVE(context, swept->numbers, swept->number_capacity, retained->cell_count));
+  CS_TRY(CS_ARRAY_RESERVE(context, swept->numbers, retained->cell_count));
   for (size_t i = 0; i < retained->cell_count; i++)
     CS_TRY(cs_map_cells_find(context, &swept->cells, content_of(retained, &retained->cells[i]),
                              &swept->numbers[i]));
@@ -97,8 +95,7 @@ static celspan_status add_row(cs_map_swept *swept, int32_t y) {
 static celspan_status take_colours(cs_map_swept *swept) {
   const cs_map *map = &swept->map;
   cs_map_drawing *drawing = &swept->drawing;
-  CS_TRY(
-      CS_RESERVE(swept->maker.context, drawing->colours, swept->colour_capacity, map->cell_count));
+  CS_TRY(CS_ARRAY_RESERVE(swept->maker.context, drawing->colours, map->cell_count));
   for (size_t i = 0; i < map->cell_count; i++)
     drawing->colours[i] = map->cells[i].colour;
   return CELSPAN_OK;

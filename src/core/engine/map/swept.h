@@ -21,9 +21,8 @@ typedef struct cs_map_swept {
   cs_retained_row retained;
   cs_map map; /* the map of the swath; it has the stack of the drawing */
   cs_map_cells cells;
-  uint32_t *numbers;      /* the numbers in the map of the cells of the retained row */
-  cs_map_drawing drawing; /* the map on the frame's pixels */
-  size_t number_capacity, colour_capacity;
+  CS_ARRAY(uint32_t, numbers); /* the numbers in the map of the cells of the retained row */
+  cs_map_drawing drawing;      /* the map on the frame's pixels */
 } cs_map_swept;
 
 /* Errors: NO_MEMORY; cs_map_swept_finish must be called then, too. */

@@ -29,7 +29,7 @@ static cs_map_point place(const turner *t, cs_map_point point) {
 
 static celspan_status add_point(turner *t, cs_map_point point) {
   cs_map_lines *out = t->out;
-  return CS_APPEND(t->context, out->points, out->point_count, out->point_capacity, point);
+  return CS_ARRAY_APPEND(t->context, out->points, out->point_count, point);
 }
 
 /* Ends a part that goes up or down, with the points from `first` on; a part beyond the frame is
@@ -50,7 +50,7 @@ static celspan_status end_part(turner *t, const course *c, bool goes_up, size_t 
     out->point_count = first;
     return CELSPAN_OK;
   }
-  return CS_APPEND(t->context, out->borders, out->border_count, out->border_capacity, part);
+  return CS_ARRAY_APPEND(t->context, out->borders, out->border_count, part);
 }
 
 static celspan_status add_course(turner *t, const course *c) {

@@ -185,7 +185,7 @@ static celspan_status fade_media(celspan_context *context, cs_map_drawing *drawi
   const float opacity = drawing->light[3];
   if (!map->is_coloured)
     return CELSPAN_OK;
-  CS_TRY(CS_MAKE(context, drawing->through, map->cell_count));
+  CS_TRY(CS_ARRAY_MAKE(context, drawing->through, map->cell_count));
   for (size_t i = 0; i < map->cell_count; i++)
     if (map->cells[i].length == 0)
       drawing->through[i] = cs_v4_all(1 - opacity) + opacity * map->through[i];
@@ -195,7 +195,7 @@ static celspan_status fade_media(celspan_context *context, cs_map_drawing *drawi
 /* The colours of the map's cells in the light of the cel, which includes its opacity. */
 static celspan_status light_cells(celspan_context *context, cs_map_drawing *drawing) {
   const cs_map *map = drawing->map;
-  CS_TRY(CS_MAKE(context, drawing->colours, map->cell_count));
+  CS_TRY(CS_ARRAY_MAKE(context, drawing->colours, map->cell_count));
   for (size_t i = 0; i < map->cell_count; i++)
     if (map->cells[i].length == 0)
       drawing->colours[i] = cs_map_brush_light(drawing, map->cells[i].colour);
@@ -476,10 +476,7 @@ celspan_status cs_drawings_create(celspan_context *context, const celspan_rostru
 
 static void finish_sheet(cs_map_sheet *sheet, cs_memory *memory) {
   cs_map_drawing *drawing = &sheet->drawing;
-  if (drawing->colours)
-    cs_mem_free(memory, drawing->colours, drawing->map->cell_count * sizeof *drawing->colours);
-  if (drawing->through)
-    cs_mem_free(memory, drawing->through, drawing->map->cell_count * sizeof *drawing->through);
+  CS_ARRAYS_FREE(memory, drawing, colours, through);
   cs_map_brush_displace(drawing, memory);
   cs_map_lines_finish(&drawing->turned, memory);
   cs_map_unref(drawing->map);
