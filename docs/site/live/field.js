@@ -8,11 +8,10 @@
 const TOKEN = new RegExp([/(?<c>--\[(=*)\[[^]*?\]\2\]|--[^\n]*)/,
   /(?<s>\[(=*)\[[^]*?\]\4\]|(["'])(?:\\[^]|(?!\5)[^\\\n])*\5?)/,
   /(?<n>0x[\da-f]+|\d+\.?\d*(?:e[+-]?\d+)?|\.\d+)/,
-  /(?<k>(?:and|break|do|else|elseif|end|false|for|function|goto|if|in)(?!\w))/,
-  /(?<w>(?:local|nil|not|or|repeat|return|then|true|until|while)(?!\w))/,
+  RegExp(`(?<k>(?:${"and|break|do|else|elseif|end|false|for|function|goto|if|in|local|nil|not|or|"
+    + "repeat|return|then|true|until|while"})(?!\\w))`),
   /(?<f>require(?!\w)|[a-z_]\w*(?=\s*\())/, /[a-z_]\w*/,
 ].map(({ source }) => source).join("|"), "gi");
-const CLASSES = { c: "c", s: "s", n: "n", k: "k", w: "k", f: "f" };
 const PIXELS = 4; // of a step while a number is dragged
 
 /** An element with properties and children. */
@@ -33,8 +32,8 @@ const colourOf = (token) => {
 
 /** The tokens of a text that have a class: { from, text, kind }. */
 const tokensOf = (text) => [...text.matchAll(TOKEN)].flatMap(({ 0: token, index, groups }) => {
-  const name = Object.keys(CLASSES).find((one) => groups[one]);
-  return name ? { from: index, text: token, kind: CLASSES[name] } : [];
+  const kind = [..."csnkf"].find((one) => groups[one]);
+  return kind ? { from: index, text: token, kind } : [];
 });
 
 /** A text as the pages have it, with its tokens in spans. */
@@ -152,11 +151,10 @@ export const field = (pre, { source, label, changed = () => {}, chosen = () => {
   /** Replaces the mark of a class: at a line, or at none. */
   const put = (className, line, properties) => {
     marks.querySelector(`.${className}`)?.remove();
-    if (!line) return null;
+    if (!line) return;
     const mark = element("div", { className, ...properties });
     mark.style.setProperty("--line", line);
     marks.append(mark);
-    return mark;
   };
   const one = {
     replace,
@@ -167,7 +165,7 @@ export const field = (pre, { source, label, changed = () => {}, chosen = () => {
     /** Shows a message under a line; 0: none. */
     mark: (line, message) => put("fault", line, { textContent: message, role: "alert" }),
     /** Lights a line; 0: none. */
-    light: (line) => put("lit", line)?.scrollIntoView({ block: "nearest", inline: "start" }),
+    light: (line) => put("lit", line),
     focus: (place) => {
       area.focus({ preventScroll: true });
       area.setSelectionRange(place, place);

@@ -52,18 +52,22 @@ const hear = ({ data: { id, isBegun, said, error } }) => {
   else settle(id, "reject", new Error(error));
 };
 
+const begin = () => {
+  const one = new Worker(new URL("worker.js", import.meta.url), { type: "module" });
+  one.onmessage = hear;
+  one.onerror = () => [...waiting.keys()].forEach((id) =>
+    settle(id, "reject", new Error("The engine could not be started.")));
+  return one;
+};
+
 const send = (question) => {
-  if (!worker) {
-    worker = new Worker(new URL("worker.js", import.meta.url), { type: "module" });
-    worker.onmessage = hear;
-    worker.onerror = () => [...waiting.keys()].forEach((id) =>
-      settle(id, "reject", new Error("The engine could not be started.")));
-  }
+  worker ??= begin();
   worker.postMessage(question);
 };
 
 const ask = async (question) => {
   module ??= compiled().catch((error) => { module = null; throw error; });
+  worker ??= begin(); // is loaded while the engine is compiled
   const whole = { id: ++last, module: await module, ...question };
   return new Promise((resolve, reject) => {
     waiting.set(whole.id, { question: whole, resolve, reject });

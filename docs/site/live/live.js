@@ -235,13 +235,16 @@ class Live {
     });
   }
 
-  /** Lights the line that made the front at a place of the picture. */
+  /** Lights the line that made the front at a place of the picture, and names it below. */
   async lightAt(event) {
     this.pause();
     const [x, y] = this.pointAt(event);
     const { places } = await this.script.at({ frame: this.frame, x, y });
     const own = places.join(" ").split(`${this.name}:`)[1];
-    this.field.light(own ? parseInt(own, 10) : 0);
+    const line = own ? parseInt(own, 10) : 0, text = this.field.text.split("\n")[line - 1];
+    this.field.light(line);
+    this.note.textContent = line ? `${line}: ${text.trim()}` : "No line of this script made this.";
+    this.note.hidden = false;
   }
 
   // ---- the points of a line, as handles on the picture
