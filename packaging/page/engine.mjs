@@ -13,6 +13,8 @@ const PAGE = 65536; // bytes of WebAssembly's memory
 const SIDE_MOST = 16384; // pixels: four bytes each are at most half of the memory
 const FRAME_MOST = 2 ** 20; // pixels of the side of a frame of which a part is drawn
 const LIMIT_MOST = 2 ** 53;
+// celspan_parameter_kind
+const KINDS = ["text", "file", "number", "boolean", "choice", "colour", "point", "ease"];
 
 const encoder = new TextEncoder(), decoder = new TextDecoder();
 
@@ -148,7 +150,8 @@ export const open = async (module, { files = {}, now = () => performance.now() }
     expectWhole("height", height, most);
   };
   let rgba = 0, rgba_size = 0;
-  const pixels = (width, height, [left, top, w, h] = [0, 0, width, height]) => {
+  const pixels = (width, height, [left, top, w, h] = [0, 0, width, height],
+    isVideo = false) => {
     expectSize(width, height, w === width && h === height ? SIDE_MOST : FRAME_MOST);
     expectWhole("the width of the part", w, SIDE_MOST);
     expectWhole("the height of the part", h, SIDE_MOST);
@@ -159,8 +162,33 @@ export const open = async (module, { files = {}, now = () => performance.now() }
       rgba = room(size);
       rgba_size = size;
     }
+    x.coding(page, isVideo);
     check(x.pixels(page, width, height, left, top, w, h, rgba));
     return new Uint8ClampedArray(x.memory.buffer, rgba, size);
+  };
+
+  // Numbers and texts of page.c, by their places there.
+  const fact = (which) => x.fact(page, which), text = (which) => memory.text(x.text(page, which));
+  const list = (count, of) => Array.from({ length: count }, (_, place) => of(place));
+  const doubles = (at, count) => list(count, (i) =>
+    new DataView(x.memory.buffer).getFloat64(at + 8 * i, true));
+  const parameter = (place) => {
+    check(x.parameter(page, place));
+    return { name: text(0), kind: KINDS[fact(1)], value: text(1), about: text(2), least: fact(2),
+      most: fact(3), choices: list(fact(4), (choice) => text(5 + choice)) };
+  };
+  const passage = (place) => {
+    const [begin, end, fadeIn, fadeOut] = doubles(x.passage(page, place), 4);
+    return { begin, end, fadeIn, fadeOut };
+  };
+  const ducker = (place) => {
+    const at = x.ducker(page, place), [gain, attack, release] = doubles(at + 8, 3);
+    return { sound: new DataView(x.memory.buffer).getUint32(at, true), gain, attack, release };
+  };
+  const sound = (place) => {
+    check(x.sound(page, place));
+    return { path: text(3), start: fact(6), speed: fact(7), gain: [fact(8), fact(9)],
+      passages: list(fact(10), passage), duckers: list(fact(11), ducker) };
   };
 
   const engine = {
@@ -190,6 +218,15 @@ export const open = async (module, { files = {}, now = () => performance.now() }
     /** The film: its size, its first frame, how many it has, and how many a second. */
     film: () => (expectRun(), { width: x.number(page, 0), height: x.number(page, 1), first: x.number(page, 2),
                    count: x.number(page, 3), fps: x.number(page, 4) }),
+    /** The version of celspan, such as "0.1.0". */
+    version: () => (expectRun(), text(4)),
+    /** What celspan.parameters of the script declares, by name; value: the default, as `set` of run
+     * takes it. */
+    parameters: () => (expectRun(), list(fact(0), parameter)),
+    /** The sounds of the film, of which celspan_sound says more. */
+    sounds: () => (expectRun(), check(x.sounds(page)), list(fact(5), sound)),
+    /** The bytes of a file; undefined: there is none. */
+    content: (path) => table.bytes[table.find(path)],
     /** Builds a frame, by its number. */
     frame(number) {
       expectRun();
@@ -215,7 +252,8 @@ export const open = async (module, { files = {}, now = () => performance.now() }
       return memory.text(text).split("\n").slice(0, -1);
     },
     /** The frame in RGBA, 8 bits, straight alpha; valid until the next call. part: [left, top, width,
-     * height] in it; without it the whole. */
+     * height] in it; without it the whole. isVideo: over black and dithered, as the program gives
+     * frames to encoders. */
     pixels,
     /** The digest of the frame, as `celspan render --hash` prints it. */
     digest(width, height) {

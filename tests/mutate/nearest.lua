@@ -137,6 +137,7 @@ return {
 
   ["docs"] = { "spec/docs", "spec/site" },
   ["docs/site"] = { "spec/site", "spec/live" },
+  ["docs/site/play"] = { "spec/playground" },
   ["README.md"] = { "spec/docs", "spec/site" },
   ["examples"] = { "example/memory", "example/surface", "example/letters", "example/painting",
     "example/embed", "example/facts", "example/host", "example/sandbox", "spec/embedding",

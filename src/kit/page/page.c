@@ -23,9 +23,13 @@ enum { CACHED_BYTES = 64 << 20 };
 
 typedef struct page {
   celspan_context *context;
-  lua_State *L; /* with the film at 1, when a script has run */
+  lua_State *L; /* with the film at 1, when a script has run, and perhaps its sounds at 2 */
   celspan_film film;
+  celspan_parameter parameter; /* the one asked for last */
+  celspan_sound sound;         /* likewise; of those at 2 */
+  size_t sound_count;
   celspan_frame_desc frame;
+  celspan_coding coding;
   bool has_line; /* the line of `keep` made something */
   char *printed; /* NULL: nothing */
   size_t printed_size;
@@ -106,6 +110,24 @@ celspan_status cs_page_run(page *p, const char *name, const char *text, size_t s
   return status == CELSPAN_OK ? celspan_lua_film(p->L, 1, &p->film) : status;
 }
 
+/* One of the parameters that the script has declared, from 0. */
+TO_PAGE(parameter) celspan_status cs_page_parameter(page *p, int place) {
+  p->parameter = CELSPAN_PARAMETER;
+  return celspan_lua_parameter(p->L, (size_t)place, &p->parameter);
+}
+
+/* The sounds of the film, and one of them, from 0. */
+TO_PAGE(sounds) celspan_status cs_page_sounds(page *p) {
+  lua_settop(p->L, 1);
+  p->sound_count = 0;
+  return celspan_lua_sounds(p->L, 1, &p->sound_count);
+}
+
+TO_PAGE(sound) celspan_status cs_page_sound(page *p, int place) {
+  p->sound = CELSPAN_SOUND;
+  return celspan_lua_sound(p->L, 2, (size_t)place, &p->sound);
+}
+
 /* Of the film: its width and height, its first frame, how many it has, and how many a second. Then
  * the bytes that celspan holds, and the most that it held; and
  * whether the line of `keep` made anything. */
@@ -117,6 +139,45 @@ TO_PAGE(number) double cs_page_number(page *p, int which) {
                         (double)p->film.count, p->film.frames_second, (double)bytes,
                         (double)peak,          (double)p->has_line};
   return which >= 0 && (size_t)which < sizeof all / sizeof *all ? all[which] : 0;
+}
+
+/* How many parameters there are, and of the one asked for its kind, its range and how many choices;
+ * how many sounds, and of the one asked for its start, speed, gains, passages and duckers. */
+TO_PAGE(fact) double cs_page_fact(page *p, int which) {
+  const celspan_parameter *one = &p->parameter;
+  const celspan_sound *sound = &p->sound;
+  const double all[] = {(double)celspan_lua_parameter_count(p->L),
+                        one->kind,
+                        one->least,
+                        one->most,
+                        (double)one->choice_count,
+                        (double)p->sound_count,
+                        sound->start,
+                        sound->speed,
+                        sound->gain[0],
+                        sound->gain[1],
+                        (double)sound->passage_count,
+                        (double)sound->ducker_count};
+  return which >= 0 && (size_t)which < sizeof all / sizeof *all ? all[which] : 0;
+}
+
+/* Four numbers: of a passage of the sound asked for, or of one of its duckers. */
+TO_PAGE(passage) const celspan_sound_passage *cs_page_passage(page *p, int place) {
+  return &p->sound.passages[place];
+}
+
+TO_PAGE(ducker) const celspan_sound_ducker *cs_page_ducker(page *p, int place) {
+  return &p->sound.duckers[place];
+}
+
+/* Of the parameter asked for its name, its default and what it is about; the path of the sound; the
+ * version of celspan; the choices. */
+TO_PAGE(text) const char *cs_page_text(page *p, int which) {
+  const celspan_parameter *one = &p->parameter;
+  const char *const all[] = {one->name, one->text, one->about, p->sound.path, celspan_version()};
+  const int count = sizeof all / sizeof *all;
+  const char *text = which < count ? all[which] : one->choices[which - count];
+  return text ? text : "";
 }
 
 TO_PAGE(frame) celspan_status cs_page_frame(page *p, double number) {
@@ -133,7 +194,15 @@ static celspan_frame_desc sized(const page *p, int width, int height) {
   return frame;
 }
 
-/* Of a part of the frame. rgba: four bytes a pixel, sRGB, with straight alpha. */
+/* How pixels are coded: with straight alpha, or over black and dithered, as the program gives
+ * frames to encoders. */
+TO_PAGE(coding) void cs_page_coding(page *p, int is_video) {
+  p->coding = CELSPAN_CODING;
+  p->coding.depth = is_video ? CELSPAN_DEPTH_8_DITHER : CELSPAN_DEPTH_8;
+  p->coding.alpha = is_video ? CELSPAN_ALPHA_PREMULTIPLIED : CELSPAN_ALPHA_STRAIGHT;
+}
+
+/* Of a part of the frame. rgba: four bytes a pixel, sRGB, as `coding` says. */
 TO_PAGE(pixels)
 celspan_status cs_page_pixels(page *p, int width, int height, int x, int y, int w, int h,
                               void *rgba) {
@@ -142,7 +211,7 @@ celspan_status cs_page_pixels(page *p, int width, int height, int x, int y, int 
   frame.crop_y = y;
   frame.crop_width = w;
   frame.crop_height = h;
-  return celspan_frame_pixels(p->context, &frame, NULL, rgba, (size_t)w * 4, NULL);
+  return celspan_frame_pixels(p->context, &frame, &p->coding, rgba, (size_t)w * 4, NULL);
 }
 
 /* out: the digest that `celspan render --hash` prints. */

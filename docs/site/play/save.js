@@ -1,0 +1,41 @@
+// What the worker of live/ does for the playground alone. Each call gets a question, and { engine,
+// build, progress }: build(question) runs its script, and builds its frame.
+import { planes, png } from "./export.js";
+import { movie } from "./movie.js";
+
+export const calls = {
+  about(question, { engine, build }) {
+    build(question);
+    return { parameters: engine.parameters(), version: engine.version(),
+      printed: engine.printed() };
+  },
+  digest(question, { engine, build }) {
+    build(question);
+    return engine.digest(question.width, question.height);
+  },
+  /** The sounds of the film, with the bytes of their files. */
+  sounds(question, { engine, build }) {
+    build(question);
+    return engine.sounds().map(sound => {
+      const isData = sound.path.startsWith("data:");
+      const bytes = isData ? undefined : engine.content(sound.path);
+      if (!bytes && !isData) {
+        throw new Error(`There is no ${sound.path}: drop the file on this page.`);
+      }
+      return { ...sound, bytes };
+    });
+  },
+  /** A file of `count` frames from `first` on. sound: two channels, or null. */
+  async save({ kind, first, count, width, height, sound, ...question }, all) {
+    const { build, engine, progress } = all;
+    const { fps } = build({ ...question, frame: first }), isVideo = kind === "webm";
+    const frame = index => {
+      build({ ...question, frame: first + index });
+      progress((index + 1) / count);
+      const rgba = engine.pixels(width, height, undefined, isVideo);
+      return isVideo ? planes(rgba, width, height) : rgba;
+    };
+    const film = { width, height, fps, count, frame };
+    return new Blob(await (isVideo ? movie(film, sound) : png(film)));
+  },
+};

@@ -1,0 +1,228 @@
+-- The playground of the site: the files that it saves, beside those of the program.
+local browsing = require "tests.support.browsing"
+local present = require "tests.support.present"
+local workbench = require "tests.support.workbench"
+
+local WEB = os.getenv "CELSPAN_WEB" or "out/web"
+
+if not present.program("node", "chromium", "ffmpeg", "ffprobe") then
+  return pending "there is no node, no chromium or no ffmpeg"
+end
+if not io.open(WEB .. "/celspan.wasm") then
+  return pending "there is no out/web: ./run web makes it"
+end
+
+-- A bar and a tone begin together.
+local WIDTH, HEIGHT, SECONDS, ONSET, FPS = 192, 108, 6, 3, 24
+local FRAME = WIDTH * HEIGHT * 3 // 2 -- bytes
+local FILM = ([[
+local p = celspan.parameters { radius = { 30, min = 5, max = 60, about = "of the dot" },
+  ground = { colour = "#234" }, isQuiet = false, side = { "left", "right" } }
+return film { size = { %d, %d }, fps = %d, frames = %d,
+  sound = not p.isQuiet and { { "tone.wav", at = %d, gain = 0.8 } } or nil,
+  frame = function(f)
+    local shapes = { back = p.ground,
+      circle { 20 + f.index / 2, 54, p.radius, fill = "#f26419c0" } }
+    if f.index >= %d then shapes[2] = rect { 140, 10, 30, 90, fill = "#8fd8ff" } end
+    return shapes
+  end }
+]]):format(WIDTH, HEIGHT, FPS, SECONDS * FPS, ONSET, ONSET * FPS)
+
+local bench
+
+setup(function()
+  bench = workbench.new()
+  local code, _, err = bench:shell(([[F='%s' && mkdir -p "$F/site/live" "$F/bin" &&
+    cp -r docs/site/play "$F/site" && cp '%s'/* "$F/site/live" &&
+    mv "$F/site/live/engine.mjs" "$F/site/live/engine.js"]]):format(bench.folder, WEB))
+  assert.equal(0, code, err)
+  bench:write("film.lua", FILM)
+  bench:write("bin/ffmpeg", "#!/bin/sh\n[ \"$1\" != -version ] || exec echo ffmpeg version 9 x\n"
+    .. "exec cat >frames.yuv\n")
+  assert.equal(0, (bench:inside("chmod +x bin/ffmpeg && ffmpeg -v error -f lavfi -i "
+    .. "sine=440:sample_rate=48000:duration=1 tone.wav")))
+end)
+teardown(function() bench:remove() end)
+
+--- What the steps return, in JavaScript, in an empty page; with the modules of the playground, and
+--- the engine with the film.
+local function see(steps)
+  return browsing.see("about:blank", ([=[
+    const fs = require("fs"), site = await require("./site.js")("%s/site");
+    site.pages["empty.html"] = "<!doctype html><title>x</title>";
+    const read = name => JSON.stringify(fs.readFileSync("%s/" + name).toString("base64"));
+    try {
+      await page.load(site.at("empty.html"), /^http:/);
+      return await page.get(`(async () => {
+        const bytes = text => Uint8Array.from(atob(text), sign => sign.charCodeAt(0));
+        const text = parts => new Promise(done => {
+          const reader = new FileReader();
+          reader.onload = () => done(reader.result.replace(/.*,/, ""));
+          reader.readAsDataURL(new Blob([parts].flat()));
+        });
+        const { open } = await import("/live/engine.js");
+        const { calls } = await import("/play/save.js"), share = await import("/play/share.js");
+        const { mix, RATE } = await import("/play/export.js");
+        const answer = await fetch("/live/celspan.wasm");
+        const more = await (await fetch("/live/more.json")).json();
+        const engine = await open(await WebAssembly.compile(await answer.arrayBuffer()),
+          { files: { ...more, "/tone.wav": bytes(${read("tone.wav")}) } });
+        const source = atob(${read("film.lua")}), film = engine.run(source);
+        const all = { engine, progress() {},
+          build: ({ frame }) => (engine.frame(frame), film) };
+        const samples = async ({ bytes }) => {
+          const context = new OfflineAudioContext(2, 1, RATE);
+          return [(await context.decodeAudioData(bytes.slice().buffer)).getChannelData(0)];
+        };
+        const fault = promise => promise.then(() => "nothing", error => error.message);
+        %s
+      })()`);
+    } finally { site.close(); }]=]):format(bench.folder, bench.folder, steps), 60)
+end
+
+--- Saves what a page answered as a file of the bench.
+local function keep(name, base64)
+  bench:write(name .. ".txt", base64)
+  assert.equal(0, (bench:inside(("base64 -d %s.txt >%s"):format(name, name))))
+end
+
+--- What a program prints in the bench.
+local function printed(command)
+  local code, out, err = bench:inside(command)
+  assert.equal(0, code, err)
+  return out, err
+end
+
+describe("the playground #plain", function()
+  local saved, frames
+
+  setup(function()
+    bench:inside(("PATH=\"$PWD/bin:$PATH\" '%s' render film.lua -o film.mp4 --progress none "
+      .. "--set isQuiet=true"):format(workbench.absolute))
+    frames = bench:read "frames.yuv"
+    saved = see [=[
+      const given = [], Own = VideoFrame, sounds = calls.sounds({ frame: film.first }, all);
+      VideoFrame = class extends Own {
+        constructor(bytes, shape) { super(bytes, shape); given.push(bytes.slice()); }
+      };
+      sounds[0].samples = await samples(sounds[0]);
+      const sound = mix(sounds, film.count / film.fps);
+      const webm = await calls.save({ ...film, kind: "webm", sound }, all);
+      const frames = await new Blob(given).arrayBuffer();
+      const hash = new Uint8Array(await crypto.subtle.digest("SHA-256", frames));
+      const apng = await calls.save({ ...film, kind: "apng", count: 3 }, all);
+      const png = await calls.save({ ...film, kind: "png", first: 100, count: 1 }, all);
+      const odd = await fault(calls.save({ ...film, kind: "webm", width: 193 }, all));
+      const huge = await fault(calls.save(
+        { ...film, kind: "webm", width: 16384, height: 16384 }, all));
+      delete globalThis.VideoEncoder;
+      const none = await fault(calls.save({ ...film, kind: "webm" }, all));
+      return { webm: await text(webm), apng: await text(apng), png: await text(png), odd, huge,
+        none, hash: [...hash].map(one => one.toString(16).padStart(2, "0")).join("") };]=]
+    for _, kind in ipairs { "webm", "apng", "png" } do keep("film." .. kind, saved[kind]) end
+  end)
+
+  it("gives the encoder the frames that the program gives to ffmpeg", function()
+    assert.equal(SECONDS * FPS * FRAME, #frames)
+    assert.equal(printed "sha256sum frames.yuv":match "%x+", saved.hash)
+  end)
+
+  it("saves films with sound that ffmpeg reads, all frames and all colours", function()
+    local facts = printed("ffprobe -v error -count_frames -show_entries stream=codec_name,"
+      .. "nb_read_frames,color_range,color_space,r_frame_rate:format=duration film.webm")
+    for _, part in ipairs { "codec_name=vp9", "codec_name=opus", "color_range=tv",
+      "color_space=bt709", "r_frame_rate=24/1", "nb_read_frames=" .. SECONDS * FPS,
+      "duration=6.0" } do
+      assert.is_truthy(facts:find(part, 1, true), facts)
+    end
+    local _, said = printed(("ffmpeg -i film.webm -f rawvideo -pix_fmt yuv420p -video_size %dx%d "
+      .. "-framerate %d -i frames.yuv -lavfi psnr -f null -"):format(WIDTH, HEIGHT, FPS))
+    assert.is_true(tonumber(said:match "average:([%d.]+)") >= 36, said)
+    assert.is_truthy(printed("ffmpeg -v error -ss 4.5 -i film.webm -frames:v 1 -f framemd5 -")
+      :find "\n0,")
+  end)
+
+  it("has the sound in step with the pictures", function()
+    local samples = printed "ffmpeg -v error -i film.webm -f s16le -ac 1 -ar 48000 -"
+    local at = 1
+    while math.abs((string.unpack("<i2", samples, at))) < 600 do at = at + 2 end
+    local second = (at - 1) / 2 / 48000
+    assert.is_true(math.abs(second - ONSET) < 0.005, second)
+    local pictures = printed "ffmpeg -v error -i film.webm -map 0:v -f rawvideo -pix_fmt yuv420p -"
+    local bar = ONSET * FPS * FRAME + WIDTH * 54 + 150 + 1
+    assert.is_true(pictures:byte(bar) > pictures:byte(bar - FRAME) + 50)
+  end)
+
+  it("saves pictures and APNG with the pixels of the program", function()
+    local own = ("'%s' render film.lua --progress none --set isQuiet=true -o - --frames %%s "
+      .. "| sha256sum"):format(workbench.absolute)
+    for kind, numbers in pairs { apng = "1-3", png = "100" } do
+      assert.equal(printed(own:format(numbers)), (printed(
+        "ffmpeg -v error -i film." .. kind .. " -f rawvideo -pix_fmt rgba - | sha256sum")))
+    end
+  end)
+
+  it("says what it cannot encode", function()
+    assert.equal("A video has an even width and height, not 193 x 108.", saved.odd)
+    assert.equal("This browser cannot encode 16384 x 16384 pixels for WebM.", saved.huge)
+    assert.is_truthy(saved.none:find("no WebCodecs", 1, true), saved.none)
+  end)
+
+  it("mixes sounds as the program does", function()
+    bench:write("film.lua", (FILM:gsub('{ { "tone.wav".-gain = 0.8 } }', [[{
+      { "tone.wav", at = 0.5, from = 0.2, fade = { 0.1, 0.3 }, pan = -0.5, duck = "b",
+        duck_release = 0.2 },
+      { "tone.wav", at = 1.1, to = 0.4, name = "b", gain = 0.3 } }]])))
+    local mixed = see [=[
+      const sounds = calls.sounds({ frame: film.first }, all);
+      for (const one of sounds) one.samples = await samples(one);
+      const channels = mix(sounds, film.count / film.fps);
+      const parts = Int16Array.from({ length: 2 * channels[0].length },
+        (_, i) => Math.round(channels[i % 2][i >> 1] * 32767));
+      return { mix: await text([parts]) };]=]
+    keep("mix.raw", mixed.mix)
+    printed(("'%s' sound film.lua -o own.wav"):format(workbench.absolute))
+    local own = printed "ffmpeg -v error -i own.wav -f s16le -ac 2 -"
+    local found, worst = bench:read "mix.raw", 0
+    assert.equal(#own, #found)
+    for at = 1, #own - 1, 2 do
+      local a, b = string.unpack("<i2", own, at), string.unpack("<i2", found, at)
+      worst = math.max(worst, math.abs(a - b))
+    end
+    assert.is_true(worst <= 2, worst)
+    bench:write("film.lua", FILM)
+  end)
+
+  it("knows parameters, and the scripts of addresses", function()
+    local seen = see [=[
+      const [, version] = (await share.fragment(engine.version(), source)).match(/^#(.*):/);
+      const hash = await share.fragment(version, source), at = hash.length >> 1;
+      const codes = crypto.getRandomValues(new Uint8Array(50000));
+      const zeros = await text(await new Response(new Blob([new Uint8Array(2e6)]).stream()
+        .pipeThrough(new CompressionStream("deflate"))).blob());
+      return { version, parameters: engine.parameters(), none: await share.shared("#main") === null,
+        same: (await share.shared(hash)).source === source,
+        faults: await Promise.all([hash.slice(0, at), hash + "A",
+          hash.slice(0, at) + (hash[at] === "A" ? "B" : "A") + hash.slice(at + 1), "#x:abc",
+          "#0.1.0:" + zeros.replaceAll("+", "-").replaceAll("/", "_").replaceAll("=", "")]
+          .map(one => fault(share.shared(one)))),
+        long: await fault(share.fragment(version, String.fromCharCode(...codes))) };]=]
+    assert.is_true(seen.same)
+    assert.is_true(seen.none)
+    assert.is_truthy(seen.version:find "^%d+%.%d+%.%d+$")
+    for _, fault in ipairs(seen.faults) do
+      assert.equal("The script in this address is damaged. Ask for the address again.", fault)
+    end
+    assert.equal(5, #seen.faults)
+    assert.is_truthy(seen.long:find("too long for an address", 1, true), seen.long)
+    local short = {}
+    for i, one in ipairs(seen.parameters) do
+      local choices = table.concat(one.choices, "|")
+      short[i] = table.concat({ one.name, one.kind, one.value, choices }, " ")
+    end
+    assert.same({ "ground colour #234 ", "isQuiet boolean false ", "radius number 30 ",
+      "side choice left left|right" }, short)
+    assert.same({ 5, 60, "of the dot" },
+      { seen.parameters[3].least, seen.parameters[3].most, seen.parameters[3].about })
+  end)
+end)
