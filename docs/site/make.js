@@ -24,6 +24,7 @@ const [folder, web] = process.argv.slice(2);
 const hasEngine = web && fs.existsSync(`${web}/celspan.wasm`);
 const pages = new Map(); // the page of each file of the tree that is one
 const files = new Set(); // of the site, that are copied as they are
+const examples = []; // scripts of the cookbook for the playground
 const md = markdown();
 
 function write(name, text) {
@@ -217,6 +218,7 @@ md.renderer.rules.fence = (tokens, i, options, { page }) => {
   const alt = picture?.content === "result" ? about ?? `the picture of ${name}.lua` : undefined;
   const stage = picture ? `<div class="stage">${showPicture(page, picture, alt)}</div>\n` : "";
   const live = hasEngine && !LACKING.test(content) ? " data-live" : "";
+  if (live && page.file === "docs/cookbook.md") examples.push({ name, about, source: content });
   return `<figure class="script" data-script="${name}"${live}>${label}${isBelow ? code + stage
     : stage + code}</figure>\n`;
 };
@@ -247,6 +249,16 @@ function showMarkdown(page) {
   page.body = md.renderer.render(tokens, md.options, { page });
 }
 
+/** Takes the body of a page that is written in HTML; its script needs the engine. */
+function showHtml(page) {
+  page.body = fs.readFileSync(page.file, "utf8");
+  if (!hasEngine) page.body = page.body.replace(/<script.*/, "<p>This site was made without the "
+    + "engine, <code>./run web</code>: nothing runs on this page.</p>");
+  page.headings = [];
+  [page.title, page.about] = ["h1", "p"].map(tag =>
+    page.body.match(RegExp(`<${tag}>([^]*?)</${tag}>`))[1]);
+}
+
 /** Makes the body of the page of a file, or of the names in a folder. */
 function showSource(page) {
   const head = `<h1>${escape(page.file)}</h1>\n`;
@@ -266,7 +278,8 @@ function readMenu() {
   const groups = Object.entries(JSON.parse(fs.readFileSync(path.join(__dirname, "menu.json"))))
     .map(([name, listed]) => ({ name, pages: Object.entries(listed).map(([file, short]) => ({ file,
       address: file === "README.md" ? "index.html" : `${posix.parse(file).name.toLowerCase()}.html`,
-      name: short, kind: file === "README.md" ? "home" : "page" })) }));
+      name: short, kind: { "README.md": "home", "docs/site/playground.html": "playground" }[file]
+        ?? "page" })) }));
   const all = groups.flatMap(group => group.pages);
   all.forEach((page, i) => {
     pages.set(page.file, Object.assign(page, { before: all[i - 1], after: all[i + 1] }));
@@ -283,6 +296,7 @@ function make() {
   const groups = readMenu();
   for (const page of pages.values()) { // which grows
     if (page.kind === "source") showSource(page);
+    else if (page.kind === "playground") showHtml(page);
     else showMarkdown(page);
   }
   const coloured = colour();
@@ -294,6 +308,10 @@ function make() {
     write(name, fs.readFileSync(path.join(__dirname, name)));
   }
   if (hasEngine) writeLive();
+  for (const name of fs.readdirSync("docs/site/play")) {
+    write(`play/${name}`, fs.readFileSync(`docs/site/play/${name}`));
+  }
+  write("play/examples.json", JSON.stringify(examples));
   console.log(`${pages.size} pages`);
 }
 

@@ -13,6 +13,7 @@ const TOKEN = new RegExp([/(?<c>--\[(=*)\[[^]*?\]\2\]|--[^\n]*)/,
   /(?<f>require(?!\w)|[a-z_]\w*(?=\s*\())/, /[a-z_]\w*/,
 ].map(({ source }) => source).join("|"), "gi");
 const PIXELS = 4; // of a step while a number is dragged
+const MOST_COLOURED = 1e5; // characters
 
 /** An element with properties and children. */
 export const element = (name, properties = {}, ...children) => {
@@ -72,7 +73,8 @@ export const field = (pre, { source, label, changed = () => {}, chosen = () => {
   let drag = null; // { number, length, span, x, y, isOn }
 
   const show = () => {
-    code.replaceChildren(...coloured(area.value));
+    const { value } = area;
+    code.replaceChildren(...value.length > MOST_COLOURED ? [`${value}\n`] : coloured(value));
     marks.replaceChildren(picker);
   };
   const replace = (from, to, text) => {

@@ -16,6 +16,7 @@ const NO_ENGINE = "This browser has no WebAssembly, or the page forbids it: the 
 
 let worker, module, last = 0;
 const waiting = new Map(); // the questions without an answer, by their numbers
+const files = new Map(); // contents that readers gave, by path
 
 const compiled = async () => {
   if (typeof WebAssembly !== "object") throw new Error(NO_ENGINE);
@@ -40,10 +41,11 @@ const replace = (id, message) => {
   for (const one of waiting.values()) send(one.question);
 };
 
-const hear = ({ data: { id, isBegun, said, error } }) => {
+const hear = ({ data: { id, isBegun, share, said, error } }) => {
   const one = waiting.get(id);
   if (!one) return;
   if (isBegun) {
+    one.progress?.(share ?? 0);
     clearTimeout(one.timer);
     one.timer = setTimeout(() => replace(id,
       `The script was ended, because its picture took longer than ${SECONDS} seconds.`),
@@ -57,6 +59,7 @@ const begin = () => {
   one.onmessage = hear;
   one.onerror = () => [...waiting.keys()].forEach((id) =>
     settle(id, "reject", new Error("The engine could not be started.")));
+  for (const [path, content] of files) one.postMessage({ path, content });
   return one;
 };
 
@@ -65,12 +68,12 @@ const send = (question) => {
   worker.postMessage(question);
 };
 
-const ask = async (question) => {
+const ask = async (question, progress) => {
   module ??= compiled().catch((error) => { module = null; throw error; });
   worker ??= begin(); // is loaded while the engine is compiled
   const whole = { id: ++last, module: await module, ...question };
   return new Promise((resolve, reject) => {
-    waiting.set(whole.id, { question: whole, resolve, reject });
+    waiting.set(whole.id, { question: whole, resolve, reject, progress });
     send(whole);
   });
 };
@@ -82,11 +85,24 @@ const placed = (error, name) => {
   return Object.assign(error, { line: Number(line ?? 0), sentence: message ?? error.message });
 };
 
-export const film = (source, { name = "film.lua" } = {}) => {
-  const put = (call) => async (question) => {
-    try { return await ask({ call, source, name, ...question }); } catch (error) {
+/** Gives scripts a file, which may replace one. */
+export const give = (path, content) => {
+  files.set(path, content);
+  worker?.postMessage({ path, content });
+};
+
+/** Ends the worker, and with it what it was asked last. */
+export const stop = (message) => {
+  const id = [...waiting.keys()].at(-1);
+  if (id && worker) replace(id, message);
+};
+
+export const film = (source, { name = "film.lua", set = {} } = {}) => {
+  const put = (call) => async (question, progress) => {
+    try { return await ask({ call, source, name, set, ...question }, progress); } catch (error) {
       throw placed(error, name);
     }
   };
-  return { draw: put("draw"), at: put("at") };
+  return Object.fromEntries(["draw", "at", "about", "digest", "sounds", "save"]
+    .map((call) => [call, put(call)]));
 };

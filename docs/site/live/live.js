@@ -20,13 +20,14 @@ const clamp = (value, least, most) => Math.min(Math.max(value, least), most);
 const button = (textContent, title, onclick) => element("button", { type: "button", textContent,
   title, ariaLabel: title, onclick });
 
-class Live {
+export class Live {
   constructor(figure) {
     const pre = figure.querySelector("pre"), code = pre.querySelector("code");
     this.figure = figure;
     this.name = `${figure.dataset.script}.lua`;
     this.original = this.other = code.textContent.replace(/\n$/, "");
     this.view = WHOLE;
+    this.set = {}; // values of parameters
     this.line = this.pointed = 0; // the line that is shown alone; that whose points have handles
     this.field = field(pre, { label: `${this.name}, to be changed`, source: this.original,
       changed: () => this.change(), chosen: (line) => this.choose(line) });
@@ -67,7 +68,7 @@ class Live {
 
   // ---- drawing
 
-  get script() { return film(this.field.text, { name: this.name }); }
+  get script() { return film(this.field.text, { name: this.name, set: this.set }); }
 
   /** Draws what is wanted now. */
   look() {
@@ -105,6 +106,7 @@ class Live {
     this.field.mark(line, line ? sentence : "");
     Object.assign(this.note, { hidden: Boolean(line) || !message, textContent: message });
     this.figure.dataset.state = message ? "failed" : "drawn";
+    this.figure.dispatchEvent(new Event(this.figure.dataset.state));
   }
 
   fail(error) {

@@ -6,7 +6,7 @@ const LIMITS = { steps: 5e7, memory: 128 * 2 ** 20 };
 
 let engine, ready = Promise.resolve(), running = ""; // running: the script whose film the engine has
 let more, names; // the second file of Lua modules; the names of files/
-const asked = new Set();
+const asked = new Set(), given = {}; // paths; files of readers
 
 const json = async (name) => (await fetch(name)).json();
 
@@ -23,11 +23,13 @@ const give = async (path) => {
 };
 
 /** Runs a script, unless it has run, and builds a frame. Only what `line` made is in it, if any. */
-const build = ({ source, name, frame, line }) => {
-  if (running !== name + source) {
+const build = ({ source, name, set, frame, line }) => {
+  const kept = Object.fromEntries(Object.entries(set).filter(([one]) => source.includes(one)));
+  const wanted = JSON.stringify([name, source, kept]);
+  if (running !== wanted) {
     running = "";
-    engine.run(source, { name, ...LIMITS });
-    running = name + source;
+    engine.run(source, { name, set: kept, ...LIMITS });
+    running = wanted;
   }
   const film = engine.film(), last = film.first + film.count - 1;
   const number = Math.min(Math.max(frame ?? film.first, film.first), last);
@@ -60,10 +62,14 @@ const calls = {
 const answer = async (question) => {
   for (;;) {
     postMessage({ id: question.id, isBegun: true });
-    try { return calls[question.call](question); } catch (error) {
+    try {
+      const call = calls[question.call] ?? (await import("../play/save.js")).calls[question.call];
+      return await call(question, { engine, build, progress: (share) =>
+        postMessage({ id: question.id, isBegun: true, share }) });
+    } catch (error) {
       running = "";
-      const given = await Promise.all(engine.missing().map(give));
-      if (!given.includes(true)) throw error;
+      const found = await Promise.all(engine.missing().map(give));
+      if (!found.includes(true)) throw error;
     }
   }
 };
@@ -71,7 +77,7 @@ const answer = async (question) => {
 const reply = async ({ module, ...question }) => {
   const { id } = question;
   try {
-    engine ??= await open(module);
+    engine ??= await open(module, { files: given });
     const said = await answer(question);
     postMessage({ id, said }, said.pixels ? [said.pixels] : []);
   } catch (error) {
@@ -82,4 +88,10 @@ const reply = async ({ module, ...question }) => {
   }
 };
 
-onmessage = ({ data }) => { ready = ready.then(() => reply(data)); };
+const keep = ({ path, content }) => {
+  given[path] = content;
+  engine?.file(path, content);
+  running = "";
+};
+
+onmessage = ({ data }) => { ready = ready.then(() => data.path ? keep(data) : reply(data)); };

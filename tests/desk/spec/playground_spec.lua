@@ -1,9 +1,12 @@
--- The playground of the site: the files that it saves, beside those of the program.
+-- The playground of the site: the files that it saves, beside those of the program; its page.
 local browsing = require "tests.support.browsing"
 local present = require "tests.support.present"
 local workbench = require "tests.support.workbench"
 
 local WEB = os.getenv "CELSPAN_WEB" or "out/web"
+local AXE = "out/npm/node_modules/axe-core/axe.min.js"
+local LIBRARIES = [[NODE_PATH=/usr/share/nodejs node -e 'require("markdown-it")' 2>/dev/null &&
+  python3 -c 'import pygments' 2>/dev/null]]
 
 if not present.program("node", "chromium", "ffmpeg", "ffprobe") then
   return pending "there is no node, no chromium or no ffmpeg"
@@ -224,5 +227,159 @@ describe("the playground #plain", function()
       "side choice left left|right" }, short)
     assert.same({ 5, 60, "of the dot" },
       { seen.parameters[3].least, seen.parameters[3].most, seen.parameters[3].about })
+  end)
+end)
+
+if not present.program "python3" or not os.execute(LIBRARIES) then
+  return pending "there is no markdown-it of node, or no pygments of python3"
+end
+
+--- What the steps return, in JavaScript, with the page of the playground, which is open.
+local function visit(steps)
+  return browsing.see("about:blank", ([=[
+    const fs = require("fs"), folder = "%s";
+    const site = await require("./site.js")(folder + "/page");
+    const source = fs.readFileSync(folder + "/film.lua", "utf8");
+    const open = async (rest = "") => {
+      await page.load("about:blank", /^about:/);
+      await page.load(site.at("playground.html" + rest), /^http:/);
+      await page.until(`document.querySelector("figure").dataset.state`);
+    };
+    const text = name => page.get(`document.querySelector("${name}").textContent`);
+    const note = async () => await text(".note") + await page.get(
+      `document.querySelector(".fault")?.textContent ?? ""`);
+    const put = script => page.get(`(() => { const area = document.querySelector("textarea");
+      area.value = ${JSON.stringify(script)}; delete document.querySelector("figure").dataset.state;
+      area.dispatchEvent(new Event("input")); })()`);
+    const ends = state => page.until(
+      `document.querySelector("figure").dataset.state === "${state}"`);
+    const give = (name, bytes) => page.get(`(() => { const all = new DataTransfer();
+      all.items.add(new File([new Uint8Array(${JSON.stringify([...bytes])})], "${name}"));
+      document.querySelector("main").dispatchEvent(new DragEvent("drop",
+        { dataTransfer: all, bubbles: true })); })()`);
+    try { await open();
+      %s } finally { site.close(); }]=]):format(bench.folder, steps), 60)
+end
+
+describe("the page of the playground #plain", function()
+  setup(function()
+    local code, _, err = bench:shell(("node docs/site/make.js '%s/page' '%s'")
+      :format(bench.folder, WEB))
+    assert.equal(0, code, err)
+  end)
+
+  it("draws with values, prints a command and its digest, and reads dropped files", function()
+    local seen = visit [=[
+      await put(source);
+      await page.until(`document.querySelector("#values select")`);
+      await page.get(`(() => { const one = document.querySelector("#values [type=range]");
+        one.value = 45; one.dispatchEvent(new Event("input")); })()`);
+      await page.until(`/radius=45/.test(document.querySelector("#command").textContent)
+        && document.querySelector("#digest").textContent`);
+      const answer = { digest: await text("#digest"), command: await text("#command"), said: [] };
+      answer.kinds = await page.get(
+        `[...document.querySelectorAll("#values :is([type], select)")].map(one => one.type)`);
+      const save = async () => {
+        await page.get(`document.querySelector("#kind").value = "webm";
+          document.querySelector("#save").click()`);
+        await page.until(`document.querySelector("#said").textContent
+          && document.querySelector("#save").textContent === "Save"`);
+        answer.said.push(await text("#said"));
+      };
+      await save();
+      await give("tone.wav", fs.readFileSync(folder + "/tone.wav"));
+      await page.until(`/can read/.test(document.querySelector("#said").textContent)`);
+      await save();
+      await page.get(`document.querySelector("#size").value = "384x216";
+        document.querySelector("#save").click()`);
+      await page.until(`document.querySelector("#progress").value > 0`);
+      await page.get(`document.querySelector("#save").click()`);
+      await page.until(`/stopped/.test(document.querySelector("#said").textContent)`);
+      return answer;]=]
+    assert.same({ "color", "checkbox", "range", "select-one" }, seen.kinds)
+    local code, out, err = bench:celspan_inside("%s", seen.command:match "\ncelspan ([^\n]*)$")
+    assert.equal(0, code, err)
+    assert.equal(out:match "[^\n]+", seen.digest)
+    assert.equal("There is no tone.wav: drop the file on this page.", seen.said[1])
+    assert.is_truthy(seen.said[2]:find "^film.webm was saved: %d", seen.said[2])
+  end)
+
+  it("shares scripts by addresses, and says which are damaged or of another version", function()
+    local seen = visit [=[
+      await put(source);
+      await ends("drawn");
+      await page.get(`document.querySelector("#share").click()`);
+      await page.until("location.hash");
+      const hash = await page.get("location.hash");
+      await page.until(`document.querySelector("#said").textContent`);
+      const answer = { share: await text("#said") };
+      await open(hash);
+      answer.same = await page.get(`document.querySelector("textarea").value`) === source;
+      answer.own = await text("#said");
+      await open(hash.replace(/[0-9]+[.]/, "7."));
+      await page.until(`document.querySelector("#said").textContent`);
+      answer.other = await text("#said");
+      await open(hash.slice(0, 60));
+      answer.cut = await text("#said");
+      return answer;]=]
+    assert.is_true(seen.same)
+    assert.equal("The address of this page now has the script.", seen.share)
+    assert.equal("", seen.own)
+    assert.is_truthy(seen.other:find("comes from celspan 7.", 1, true), seen.other)
+    assert.is_truthy(seen.cut:find("damaged", 1, true), seen.cut)
+  end)
+
+  it("answers bad scripts, and what a browser lacks, with a sentence", function()
+    local seen = visit [=[
+      const answer = {}, SCRIPTS = { loop: "while true do end",
+        memory: "return ('x'):rep(2 ^ 32)",
+        font: "return rostrum { text { 'a', font = 'no.ttf' } }",
+        word: "return rostrum { circle { 1, 2, 3, fil = 'red' } }" };
+      for (const [name, script] of Object.entries(SCRIPTS)) {
+        await put(script);
+        await ends("failed");
+        answer[name] = await note();
+      }
+      await put("return rostrum { back = 'teal' } --" + "x".repeat(1e6));
+      await ends("drawn");
+      await give("film.lua", Buffer.from("return rostrum { back = 'navy' }"));
+      await page.until(`document.querySelector("textarea").value.length < 100`);
+      await ends("drawn");
+      site.policy = "script-src 'self'";
+      await open();
+      answer.policy = await note();
+      site.policy = null;
+      await page.call("Page.addScriptToEvaluateOnNewDocument",
+        { source: "delete globalThis.WebAssembly" });
+      await open();
+      answer.none = await note();
+      return answer;]=]
+    assert.is_truthy(seen.loop:find "steps", seen.loop)
+    assert.is_truthy(seen.memory:find "more than %d+", seen.memory)
+    assert.is_truthy(seen.font:find("no.ttf", 1, true), seen.font)
+    assert.is_truthy(seen.word:find("unknown field 'fil'", 1, true), seen.word)
+    assert.is_truthy(seen.policy:find "WebAssembly", seen.policy)
+    assert.is_truthy(seen.none:find "WebAssembly", seen.none)
+  end)
+
+  it("has no fault that axe-core finds, and fits a telephone", function()
+    if not io.open(AXE) then return pending "axe-core was not fetched" end
+    local seen = visit(([=[
+      await page.get(fs.readFileSync("%s", "utf8") + "; 0");
+      const faults = [];
+      for (const value of ["light", "dark"]) {
+        await page.call("Emulation.setEmulatedMedia",
+          { features: [{ name: "prefers-color-scheme", value }] });
+        faults.push(...await page.get(`axe.run(document, { resultTypes: ["violations"] })
+          .then(({ violations }) => violations.map(({ id, nodes }) =>
+            id + ": " + nodes[0].html + nodes[0].failureSummary))`));
+      }
+      await page.call("Emulation.setDeviceMetricsOverride",
+        { width: 390, height: 844, deviceScaleFactor: 1, mobile: false });
+      await page.settle();
+      return { faults,
+        isWide: await page.get("document.documentElement.scrollWidth > innerWidth") };
+      ]=]):format(AXE))
+    assert.same({ faults = {}, isWide = false }, seen)
   end)
 end)
