@@ -15,12 +15,20 @@ const FRAME_MOST = 2 ** 20; // pixels of the side of a frame of which a part is 
 const LIMIT_MOST = 2 ** 53;
 // celspan_parameter_kind
 const KINDS = ["text", "file", "number", "boolean", "choice", "colour", "point", "ease"];
+const MEMORY_MOST = 2 ** 31 - PAGE;
+const PNG = "/dev/png"; // of picture.c, which looks for it, but is not to find it
+const EXPORTS = ["memory", "open", "set", "run", "frame", "pixels", "png"];
 
 const encoder = new TextEncoder(), decoder = new TextDecoder();
 
 /** "a/./b", "/a//b" -> "/a/b" */
 const clean = (path) => "/" + path.split("/").reduce((way, part) =>
   part === ".." ? way.slice(0, -1) : part && part !== "." ? [...way, part] : way, []).join("/");
+
+/** The bytes of a buffer or a view of one; undefined: it is neither. */
+const bytes_of = (given) =>
+  ArrayBuffer.isView(given) ? new Uint8Array(given.buffer, given.byteOffset, given.byteLength)
+    : given instanceof ArrayBuffer ? new Uint8Array(given) : undefined;
 
 /** The files of a page, and what was looked for in vain. */
 class Files {
@@ -31,22 +39,33 @@ class Files {
   }
 
   put(path, content) {
+    const bytes = typeof content === "string" ? encoder.encode(content) : bytes_of(content);
+    if (!bytes)
+      throw new Error(`celspan: ${path}: a file is a text or bytes, got ${typeof content}`);
     this.numbers.set(clean(path), this.bytes.length);
-    this.bytes.push(typeof content === "string" ? encoder.encode(content) : content);
+    this.bytes.push(bytes);
     this.missed.delete(clean(path));
   }
 
+  clear() {
+    this.numbers.clear();
+    this.bytes.length = 0;
+    this.missed.clear();
+  }
+
   find(path) {
-    const name = clean(path), folder = name === "/" ? name : name + "/";
+    const name = clean(path), folder = name + "/";
+    if (name === "/") return FOLDER;
     if (this.numbers.has(name)) return this.numbers.get(name);
     for (const other of this.numbers.keys()) if (other.startsWith(folder)) return FOLDER;
-    this.missed.add(name);
+    if (name !== PNG) this.missed.add(name);
     return MISSING;
   }
 }
 
-/** What the WebAssembly asks of JavaScript. `of()` has its exports, when there are some. */
-const imports = (module, of, memory, files, now) => {
+/** What the WebAssembly asks of JavaScript. `of()` has its exports, when there are some; `most()` is
+ * the most memory that it may have. */
+const imports = (module, of, memory, files, now, most) => {
   const jump = {}; // what longjmp throws
   let high = 0; // the upper half of a result with 64 bits
   const time = (at, unit) => {
@@ -57,6 +76,7 @@ const imports = (module, of, memory, files, now) => {
     return 0;
   };
   const grow = (size) => {
+    if (size > most()) return 0;
     try {
       of().memory.grow(Math.ceil((size - of().memory.buffer.byteLength) / PAGE));
       return 1;
@@ -82,7 +102,7 @@ const imports = (module, of, memory, files, now) => {
     clock: () => now() * 1e3, time: () => Math.floor(now() / 1e3),
     clock_gettime: (clock, at) => time(at, 1e6), __clock_gettime: (clock, at) => time(at, 1e6),
     gettimeofday: (at) => time(at, 1e3),
-    emscripten_get_heap_max: () => 2 ** 31 - PAGE, emscripten_resize_heap: grow,
+    emscripten_get_heap_max: most, emscripten_resize_heap: grow,
     abort: stop("abort"), exit: stop("exit"),
   };
   const none = { environ_sizes_get: (count, size) => (memory.put(count, 0), memory.put(size, 0)),
@@ -95,17 +115,38 @@ const imports = (module, of, memory, files, now) => {
   return all;
 };
 
-/** An engine. module: the compiled celspan.wasm. files: contents by path: texts or Uint8Arrays. now:
- * the clock in milliseconds, which decides nothing that is drawn. */
-export const open = async (module, { files = {}, now = () => performance.now() } = {}) => {
+/** A module of celspan.wasm: compiled, or the bytes of the file. */
+const module_of = async (given) => {
+  const bytes = bytes_of(given);
+  let module = given, names;
+  try {
+    if (bytes) module = await WebAssembly.compile(bytes);
+    names = WebAssembly.Module.exports(module).map(({ name }) => name);
+  } catch (error) {
+    throw new Error(bytes
+      ? `celspan: celspan.wasm is damaged, or may not be compiled here: ${error.message}`
+      : "celspan: the module must be the compiled celspan.wasm, or its bytes", { cause: error });
+  }
+  const lacks = EXPORTS.find((name) => !names.includes(name));
+  if (lacks)
+    throw new Error(`celspan: the module is no celspan.wasm of this version: it has no ${lacks}`);
+  return module;
+};
+
+/** An engine. given: celspan.wasm, compiled or as bytes. files: contents by path: texts or bytes.
+ * now: the clock in milliseconds, which decides nothing that is drawn. */
+export const open = async (given, { files = {}, now = () => performance.now() } = {}) => {
+  const module = await module_of(given);
   let x; // the exports
+  let room_most = MEMORY_MOST;
   const table = new Files();
   const memory = {
     bytes: () => new Uint8Array(x.memory.buffer),
     text: (at) => decoder.decode(memory.bytes().subarray(at, memory.bytes().indexOf(0, at))),
     put: (at, value) => (new DataView(x.memory.buffer).setInt32(at, value, true), 0),
   };
-  x = (await WebAssembly.instantiate(module, imports(module, () => x, memory, table, now))).exports;
+  const given_to = imports(module, () => x, memory, table, now, () => room_most);
+  x = (await WebAssembly.instantiate(module, given_to)).exports;
   x.__wasm_call_ctors();
 
   const room = (size) => {
@@ -148,6 +189,11 @@ export const open = async (module, { files = {}, now = () => performance.now() }
     expectFrame();
     expectWhole("width", width, most);
     expectWhole("height", height, most);
+  };
+  /** Calls use(address) with room for some bytes, and frees it. */
+  const with_room = (size, use) => {
+    const at = room(size);
+    try { return use(at); } finally { x.free(at); }
   };
   let rgba = 0, rgba_size = 0;
   const pixels = (width, height, [left, top, w, h] = [0, 0, width, height],
@@ -194,6 +240,8 @@ export const open = async (module, { files = {}, now = () => performance.now() }
   const engine = {
     /** Adds a file, or replaces it. */
     file: (path, content) => table.put(path, content),
+    /** Removes all files. */
+    clear: () => table.clear(),
     /** The paths that were looked for in vain, once. */
     missing: () => {
       const all = [...table.missed];
@@ -203,9 +251,12 @@ export const open = async (module, { files = {}, now = () => performance.now() }
     /** What the script has printed. */
     printed: () => page ? memory.text(x.printed(page)) : "",
     /** Runs a script, and returns its film. name: its path, as messages call it. set: values of
-     * parameters, by name. steps, memory: limits of a run and of a frame (docs/c.md). */
-    run(script, { name = "film.lua", set = {}, steps = 0, memory: most = 0 } = {}) {
+     * parameters, by name. steps, memory: limits of a run and of a frame (docs/c.md). room: the most
+     * bytes of the WebAssembly. */
+    run(script, { name = "film.lua", set = {}, steps = 0, memory: most = 0,
+                  room: bytes = MEMORY_MOST } = {}) {
       engine.close();
+      room_most = Math.min(bytes, MEMORY_MOST);
       if (!(steps >= 0 && steps <= LIMIT_MOST && most >= 0 && most <= LIMIT_MOST))
         throw new Error(`celspan: steps and memory must be from 0 to 2^53, got ${steps} and ${most}`);
       page = x.open(steps, most);
@@ -255,19 +306,27 @@ export const open = async (module, { files = {}, now = () => performance.now() }
      * height] in it; without it the whole. isVideo: over black and dithered, as the program gives
      * frames to encoders. */
     pixels,
+    /** The frame as a PNG: the bytes of the file that `celspan render` writes. */
+    png(width, height) {
+      expectSize(width, height);
+      return with_room(8, (at) => {
+        check(x.png(page, width, height, at));
+        const [address, size] = new Uint32Array(x.memory.buffer, at, 2);
+        return memory.bytes().slice(address, address + size);
+      });
+    },
     /** The digest of the frame, as `celspan render --hash` prints it. */
     digest(width, height) {
       expectSize(width, height);
-      const at = room(16);
-      try {
+      return with_room(16, (at) => {
         check(x.digest(page, width, height, at));
         const view = new DataView(x.memory.buffer);
         return [4, 0, 12, 8].map((place) =>
           view.getUint32(at + place, true).toString(16).padStart(8, "0")).join("");
-      } finally { x.free(at); }
+      });
     },
     /** The bytes that celspan holds, the most that it held, and the memory of the WebAssembly. */
-    memory: () => (expectRun(), { held: x.number(page, 5), most: x.number(page, 6),
+    memory: () => ({ held: page ? x.number(page, 5) : 0, most: page ? x.number(page, 6) : 0,
                      all: x.memory.buffer.byteLength }),
     /** Releases the film. */
     close() {

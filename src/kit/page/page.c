@@ -1,6 +1,6 @@
 /* What engine.mjs calls: one film at a time, from a text.
  *
- *   open -> set ... -> run -> frame -> keep -> pixels, digest, at -> close
+ *   open -> set ... -> run -> frame -> keep -> pixels, png, digest, at -> close
  *
  * Functions return a celspan_status, and after a failure `error` has the sentence.
  */
@@ -13,6 +13,7 @@
 #include "common/hits.h"
 #include "common/made.h"
 #include "lua/bind/named.h"
+#include "page/picture.h"
 
 /* JavaScript calls them: no header declares them. */
 #pragma GCC diagnostic ignored "-Wmissing-prototypes"
@@ -33,6 +34,7 @@ typedef struct page {
   bool has_line; /* the line of `keep` made something */
   char *printed; /* NULL: nothing */
   size_t printed_size;
+  unsigned char *png; /* the latest; NULL: none */
 } page;
 
 /* What there is no memory for is not shown. */
@@ -53,6 +55,7 @@ TO_PAGE(close) void cs_page_close(page *p) {
     lua_close(p->L);
   celspan_context_destroy(p->context);
   free(p->printed);
+  free(p->png);
   free(p);
 }
 
@@ -212,6 +215,15 @@ celspan_status cs_page_pixels(page *p, int width, int height, int x, int y, int 
   frame.crop_width = w;
   frame.crop_height = h;
   return celspan_frame_pixels(p->context, &frame, &p->coding, rgba, (size_t)w * 4, NULL);
+}
+
+/* out: the address and the size of a PNG, which lives until the next one is made or the page is
+ * closed. */
+TO_PAGE(png) celspan_status cs_page_png(page *p, int width, int height, size_t out[2]) {
+  celspan_frame_desc frame = sized(p, width, height);
+  celspan_status status = cs_picture_png(p->context, &frame, p->film.title, &p->png, &out[1]);
+  out[0] = (size_t)p->png;
+  return status;
 }
 
 /* out: the digest that `celspan render --hash` prints. */

@@ -9,7 +9,10 @@ static void load_file(lua_State *L, const char *folder, const char *file) {
   const char *path = lua_pushfstring(L, "celspan/%s%s", folder, file);
   int outcome = luaL_loadfilex(L, path, "t");
   if (outcome == LUA_ERRFILE)
-    cs_caller_error(L, "%s is not in this celspan of web pages: more.json has it", path);
+    cs_caller_error(L,
+                    "this celspan has no %s: it is that of web pages, and more.json has what else "
+                    "it can have",
+                    path);
   if (outcome != LUA_OK)
     lua_error(L);
   cs_require_push_globals(L);
