@@ -1,8 +1,11 @@
 #!/usr/bin/env bash
-# Makes celspan for web pages: one WebAssembly, its glue and what it asks for.
+# Makes celspan for web pages, which is the npm package celspan-web: one WebAssembly, its glue and
+# what it asks for.
 #
 #   packaging/page/build.sh BUILD FOLDER     BUILD: a folder for what is compiled; FOLDER is deleted
 #                                            first
+#
+# Ends with 77 where Debian's mirrors give no sources of the libraries.
 #
 # Meson compiles with clang itself, because emcc begins an interpreter for each file; the C library
 # and the linking are emcc's.
@@ -61,11 +64,20 @@ wasm-ld -o "$build/linked/celspan.wasm" --whole-archive "${archives[@]:0:2}" --n
   "${wrapped[@]/#/--wrap=}" --import-undefined --no-entry --export-table --strip-debug \
   --export-if-defined={malloc,free,setThrew,stackSave,stackRestore,__wasm_call_ctors} \
   -z stack-size=1048576 --initial-memory=16777216 --max-memory=2147418112 --global-base=1024
+# A function of ours that no file has would become one of JavaScript.
+lacks=$(node -p 'const linked = new WebAssembly.Module(fs.readFileSync(process.argv[1]));
+  WebAssembly.Module.imports(linked).map(({ name }) => name)
+    .filter((name) => /^(cs|celspan|lua)_/.test(name)).join(" ")' "$build/linked/celspan.wasm")
+[ -z "$lacks" ] || { echo "no file that is linked has: $lacks" >&2 && exit 1; }
 wasm-opt -Oz --enable-simd --enable-bulk-memory --enable-sign-ext --enable-mutable-globals \
   --enable-nontrapping-float-to-int --low-memory-unused --zero-filled-memory \
   --merge-similar-functions --strip-debug --strip-producers --strip-target-features \
   "$build/linked/celspan.wasm" -o "$folder/celspan.wasm"
-cp "$top/packaging/page/engine.mjs" "$meson/src/kit/lua/module/more.json" "$folder"
+cp "$top"/packaging/page/{{engine,render}.mjs,npm/{index.d.ts,README.md}} \
+  "$meson/src/kit/lua/module/more.json" "$folder"
+lua5.4 "$top/packaging/page/font.lua" "$top/scripts/type/block.ttf" "$folder/block.ttf"
+version=$(sed -n "s/^  version: '\(.*\)',/\1/p" "$top/meson.build")
+sed "s/@VERSION@/$version/" "$top/packaging/page/npm/package.json.in" >"$folder/package.json"
 
 # What is linked in; FriBidi's licence (LGPL) wants a way to link another one, which is this script.
 cp "$top/LICENSE" "$folder/LICENSES"

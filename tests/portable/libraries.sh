@@ -44,23 +44,31 @@ release=$(. /etc/os-release && echo "$VERSION_CODENAME")
 # has_source NAME: whether the folder of a source package is there.
 has_source() { [ -n "$(find "$folder/sources" -maxdepth 1 -type d -name "$1*")" ]; }
 
-# fetch_sources PACKAGE...: an update may have gone from the mirror: the release's own version is
-# taken then.
-fetch_sources() {
-  local own package
+# lack PACKAGE: 77 says that nothing is wrong with what is built.
+lack() {
+  echo "Debian's mirrors gave no sources of $1, so celspan is not built for $name" >&2
+  exit 77
+}
+
+# fetch_source PACKAGE: an update may have gone from the mirror: the release's own version is taken
+# then.
+fetch_source() {
+  local own
   own=$(dpkg --print-architecture)
-  for package in "$@"; do
-    has_source "$package" || [ -d "$folder/apt/deb-src-$own/lists/partial" ] ||
-      apt_get deb-src "$own" update
-    has_source "$package" ||
-      (cd "$folder/sources" && { apt_get deb-src "$own" source "$package" ||
-        apt_get deb-src "$own" source "$package/$release"; })
-  done
+  has_source "$1" && return
+  [ -d "$folder/apt/deb-src-$own/lists/partial" ] || apt_get deb-src "$own" update
+  (cd "$folder/sources" && { apt_get deb-src "$own" source "$1" ||
+    apt_get deb-src "$own" source "$1/$release"; })
+}
+
+fetch_sources() {
+  local package
+  for package in "$@"; do fetch_source "$package" || lack "$package"; done
 }
 
 # Debian's mirrors no longer have the sources of its libunibreak: those of the next release.
 fetch_unibreak() {
-  has_source libunibreak || fetch_sources libunibreak 2>/dev/null || {
+  fetch_source libunibreak 2>/dev/null || {
     local own list
     own=$(dpkg --print-architecture)
     mkdir -p "$folder/apt/next-$own"
@@ -182,7 +190,7 @@ fetch_sources zlib lua5.4
 build_libraries
 if [ "$name" = page ]; then
   fetch_sources expat harfbuzz fribidi
-  fetch_unibreak
+  fetch_unibreak || lack libunibreak
   build_expat
   build_harfbuzz
   build_fribidi
