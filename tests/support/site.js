@@ -9,7 +9,8 @@ const fs = require("fs");
 const http = require("http");
 const { gzipSync } = require("zlib");
 
-const KINDS = { html: "text/html", css: "text/css", js: "text/javascript", png: "image/png" };
+const KINDS = { html: "text/html", css: "text/css", js: "text/javascript", mjs: "text/javascript",
+                png: "image/png" };
 
 module.exports = async folder => {
   const site = { pages: {}, policy: null, delay: 0 };

@@ -39,6 +39,7 @@ typedef struct cs_output {
   const char *offers; /* formats in the form of watch: lines of a name and words; or NULL */
   const char *depths, *colours, *alphas; /* the values that it takes; NULL: any */
   cs_holds holds;
+  bool asks_files;   /* its part asks which files the script has read */
   bool codes_stills; /* one frame is coded as a film is, too, where it could be a picture */
   /* Only with --layers or --cryptomatte; NULL: without. */
   const cs_apart_format *layers;

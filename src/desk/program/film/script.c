@@ -24,6 +24,7 @@
 #include "process/interrupt.h"
 #include "program/film/confine.h"
 #include "program/film/movies.h"
+#include "program/film/output.h"
 #include "program/film/view.h"
 #include "program/options/request.h"
 #include "program/report/text_file.h"
@@ -315,11 +316,13 @@ static cs_exit start_script(cs_script *out, const cs_request *request, const cha
 
 cs_exit cs_script_open(celspan_context *context, const cs_request *request, const char *path,
                        bool is_silent, cs_script *out) {
-  *out = (cs_script){.context = context,
-                     .is_trusted = cs_request_has(request, "--trust"),
-                     .asks_files = request->verb->asks_files || cs_request_has(request, "--files"),
-                     .asks_warnings = request->verb->asks_warnings && !is_silent,
-                     .is_silent = is_silent};
+  *out =
+      (cs_script){.context = context,
+                  .is_trusted = cs_request_has(request, "--trust"),
+                  .asks_files = request->verb->asks_files || cs_request_has(request, "--files") ||
+                                (request->output && request->output->asks_files),
+                  .asks_warnings = request->verb->asks_warnings && !is_silent,
+                  .is_silent = is_silent};
   CS_TRY_EXIT(start_script(out, request, path));
   const int count = (int)request->script_argument_count;
   const char *const *arguments = (const char *const *)request->script_arguments;

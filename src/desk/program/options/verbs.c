@@ -126,7 +126,9 @@ static const cs_option RENDER[] = {
     {"-o", "OUT", &cs_argument_file,
      "shot.####.png, shot.%04d.exr, one.png for a single frame, - for raw frames; film.mp4, .mov, "
      ".webm, .mkv, .gif, .webp, .apng or .avif: a video; one.svg or film.pdf: drawings; film.json "
-     "or film.lottie: a Lottie animation"},
+     "or film.lottie: a Lottie animation; name.ograf: a graphic for broadcast"},
+    {"--engine", "DIR", &cs_argument_file,
+     "of a graphic with parameters: the folder of celspan-web; default: beside the program"},
     {"--scale", "S", &cs_argument_scale,
      "pixels per film unit, instead of --size; of a drawing: of pictures in it, default: 2"},
     {"--draft", NULL, NULL, "half the size and no antialiasing (jagged), to look at a film soon"},
@@ -377,8 +379,8 @@ const cs_verb cs_verbs[] = {
               "ProRes 4444 and webm VP9, both with alpha.",
      .own = RENDER,
      .options =
-         "-o --frames --size --fit --scale --draft --crop --strip --task --antialias " CODING DITHER
-             DRAWING VIDEO "--fps " CELS
+         "-o --frames --engine --size --fit --scale --draft --crop --strip --task "
+         "--antialias " CODING DITHER DRAWING VIDEO "--fps " CELS
          "--workers --progress --hash --resume --force --keep-going --table --log --report " SCRIPT
          "--memory "},
     {"info", "SCRIPT|FILE", 1, 1, .has_script = true,

@@ -122,6 +122,14 @@ const cs_output cs_outputs[] = {
      .holds = CS_HOLDS_FILM,
      .codes_stills = true,
      .part = "lottie.lua"},
+    {.kind = "graphics for broadcast",
+     .names = " ograf ",
+     .makers = " render ",
+     .takes = " --engine ",
+     .holds = CS_HOLDS_FILM,
+     .asks_files = true,
+     .codes_stills = true,
+     .part = "ograf.lua"},
     {.kind = "sounds",
      .names = " wav ",
      .makers = " sound ",
@@ -131,13 +139,17 @@ const cs_output cs_outputs[] = {
 
 /* ---------------------------------------------------------------- the row of a name */
 
-/* The name of a format, in small letters; "": the path has no ending. */
+/* The name of a format, in small letters; "": the path has no ending. That of a folder may end with
+ * a slash. */
 static void name_of(const cs_request *request, const char *path, char out[NAME_SIZE]) {
   const char *format = cs_request_text(request, "--format");
   const char *name = !path                    ? "--hash"
                      : strcmp(path, "-") == 0 ? "-"
                      : format                 ? format
                                               : cs_file_ending(path);
+  const char *folder = path ? strstr(path, ".ograf/") : NULL;
+  if (folder && !folder[sizeof ".ograf/" - 1])
+    name = "ograf";
   snprintf(out, NAME_SIZE, "%s", name);
   for (char *at = out; *at; at++)
     *at = (char)tolower((unsigned char)*at);

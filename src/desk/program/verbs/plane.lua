@@ -6,13 +6,6 @@ local celspan = require "celspan"
 
 local STILL_MOST = 1280 -- pixels of the longer side of the picture
 
-local function bytes_of(path)
-  local file, message = io.open(path, "rb")
-  local bytes = file and file:read "a"
-  if file then file:close() end
-  return bytes or program.fail("input", "%s", message or path)
-end
-
 local page = request.output
 if not page then program.usage "-o is missing: give -o page.html" end
 local path, is_script = request[1], program.has_ending(page, ".js")
@@ -48,5 +41,5 @@ end
 
 program.save(page, filled("plane.html", {
   TITLE = program.markup(request.title or path:match "[^/]*$"),
-  PLAYER = player, PLANE = program.base64(bytes_of(path)), STILL = program.base64(still()),
+  PLAYER = player, PLANE = program.base64(program.bytes(path)), STILL = program.base64(still()),
 }))

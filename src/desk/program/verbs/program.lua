@@ -19,6 +19,14 @@ function program.has_ending(path, ...)
   return false
 end
 
+--- The bytes of a file; if it cannot be read, the verb ends.
+function program.bytes(path)
+  local file, message = io.open(path, "rb")
+  local bytes = file and file:read "a"
+  if file then file:close() end
+  return bytes or program.fail("input", "%s", message or path)
+end
+
 --- Whether a path is a folder, or leads into it. Both are resolved.
 function program.is_within(folder, path)
   return path == folder or path:sub(1, #folder + 1) == folder:gsub("/$", "") .. "/"
