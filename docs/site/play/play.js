@@ -63,7 +63,7 @@ function printDigest() {
     if (live.isPlaying || isSaving) return printDigest();
     const { frame } = live, [width, height] = size();
     const digest = await now().digest({ frame, width, height }).catch(() => "");
-    if (frame === live.frame) at("digest").textContent = `${frame} ${digest}`;
+    if (digest && frame === live.frame) at("digest").textContent = `${frame} ${digest}`;
   }, PATIENCE);
 }
 
