@@ -36,7 +36,7 @@ return {
       "is freed together with the object that contains it" },
   },
   ["src/core/engine/defocus/sample_sums.c"] = {
-    { "for (size_t k = 0; k < count; k++)", "`0` to `1`",
+    { "for (int32_t k = 0; k <= extent; k++)", "`0` to `1`",
       "the weight of the middle is not read: it is 1 minus those of the pairs" },
   },
   ["src/core/engine/kernel/convolve_parts.h"] = {
