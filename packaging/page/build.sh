@@ -69,12 +69,15 @@ lacks=$(node -p 'const linked = new WebAssembly.Module(fs.readFileSync(process.a
   WebAssembly.Module.imports(linked).map(({ name }) => name)
     .filter((name) => /^(cs|celspan|lua)_/.test(name)).join(" ")' "$build/linked/celspan.wasm")
 [ -z "$lacks" ] || { echo "no file that is linked has: $lacks" >&2 && exit 1; }
-wasm-opt -Oz --enable-simd --enable-bulk-memory --enable-sign-ext --enable-mutable-globals \
+wasm-opt -Oz -Oz --enable-simd --enable-bulk-memory --enable-sign-ext --enable-mutable-globals \
   --enable-nontrapping-float-to-int --low-memory-unused --zero-filled-memory \
   --merge-similar-functions --strip-debug --strip-producers --strip-target-features \
   "$build/linked/celspan.wasm" -o "$folder/celspan.wasm"
-cp "$top"/packaging/page/{{engine,render}.mjs,npm/{index.d.ts,README.md}} \
-  "$meson/src/kit/lua/module/more.json" "$folder"
+cp "$top"/packaging/page/npm/{index.d.ts,README.md} "$meson/src/kit/lua/module/more.json" "$folder"
+for name in engine render; do # without the lines that are comments
+  perl -0pe 's{^ */\*\*.*?\*/\n}{}gms; s{^ *//.*\n}{}gm' "$top/packaging/page/$name.mjs" \
+    >"$folder/$name.mjs"
+done
 lua5.4 "$top/packaging/page/font.lua" "$top/scripts/type/block.ttf" "$folder/block.ttf"
 version=$(sed -n "s/^  version: '\(.*\)',/\1/p" "$top/meson.build")
 sed "s/@VERSION@/$version/" "$top/packaging/page/npm/package.json.in" >"$folder/package.json"
