@@ -251,7 +251,8 @@ function showMarkdown(page) {
 
 /** Takes the body of a page that is written in HTML; its script needs the engine. */
 function showHtml(page) {
-  page.body = fs.readFileSync(page.file, "utf8");
+  const [, version] = fs.readFileSync("meson.build", "utf8").match(/^ {2}version: '(.*)',/m);
+  page.body = fs.readFileSync(page.file, "utf8").replace("@VERSION@", version);
   if (!hasEngine) page.body = page.body.replace(/<script.*/, "<p>This site was made without the "
     + "engine, <code>./run web</code>: nothing runs on this page.</p>");
   page.headings = [];

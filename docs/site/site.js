@@ -66,6 +66,7 @@ function awaitTouch(figure) {
     try {
       (await import("./live/live.js")).enliven(figure, event);
     } catch {
+      figure.classList.remove("live");
       run.textContent = "The engine could not be loaded";
     }
   };

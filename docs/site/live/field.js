@@ -53,8 +53,8 @@ const coloured = (text) => {
 
 /** The number that is at a place of a text, or ends there, with its sign: { from, text }. */
 const numberAt = (text, place) => {
-  const one = tokensOf(text).find(({ from, text: { length }, kind }) =>
-    kind === "n" && from <= place && place <= from + length);
+  const one = tokensOf(text).find(({ from, text: token, text: { length }, kind }) =>
+    kind === "n" && !/[xe]/i.test(token) && from <= place && place <= from + length);
   const isNegative = one && /(^|[^\w)\]}\s"'])\s*-$/.test(text.slice(0, one.from));
   return isNegative ? { from: one.from - 1, text: `-${one.text}` } : one;
 };
@@ -75,7 +75,7 @@ export const field = (pre, { source, label, changed = () => {}, chosen = () => {
   const show = () => {
     const { value } = area;
     code.replaceChildren(...value.length > MOST_COLOURED ? [`${value}\n`] : coloured(value));
-    marks.replaceChildren(picker);
+    for (const mark of [...marks.children]) if (mark !== picker) mark.remove(); // it may be open
   };
   const replace = (from, to, text) => {
     area.setRangeText(text, from, to, "end");
@@ -176,6 +176,7 @@ export const field = (pre, { source, label, changed = () => {}, chosen = () => {
   pre.classList.add("field");
   pre.removeAttribute("tabindex");
   code.ariaHidden = true;
+  marks.append(picker);
   pre.append(marks, area);
   show();
   return one;

@@ -20,7 +20,8 @@ const files = new Map(); // contents that readers gave, by path
 
 const compiled = async () => {
   if (typeof WebAssembly !== "object") throw new Error(NO_ENGINE);
-  const answer = await fetch(new URL("celspan.wasm", import.meta.url));
+  const answer = await fetch(new URL("celspan.wasm", import.meta.url)).catch(({ message }) =>
+    ({ status: message }));
   if (!answer.ok) throw new Error(`The engine could not be loaded: ${answer.status}.`);
   const bytes = await answer.arrayBuffer();
   try { return await WebAssembly.compile(bytes); } catch { throw new Error(NO_ENGINE); }
@@ -57,8 +58,11 @@ const hear = ({ data: { id, isBegun, share, said, error } }) => {
 const begin = () => {
   const one = new Worker(new URL("worker.js", import.meta.url), { type: "module" });
   one.onmessage = hear;
-  one.onerror = () => [...waiting.keys()].forEach((id) =>
-    settle(id, "reject", new Error("The engine could not be started.")));
+  one.onerror = () => {
+    one.terminate();
+    worker = null;
+    for (const id of waiting.keys()) settle(id, "reject", new Error("The engine could not be started."));
+  };
   for (const [path, content] of files) one.postMessage({ path, content });
   return one;
 };
@@ -91,9 +95,9 @@ export const give = (path, content) => {
   worker?.postMessage({ path, content });
 };
 
-/** Ends the worker, and with it what it was asked last. */
-export const stop = (message) => {
-  const id = [...waiting.keys()].at(-1);
+/** Ends the worker, and with it a call; what else waits is asked of the next worker. */
+export const stop = (call, message) => {
+  const [id] = [...waiting].find(([, { question }]) => question.call === call) ?? [];
   if (id && worker) replace(id, message);
 };
 

@@ -36,7 +36,9 @@ export class Live {
     if (!this.still) pre.before(this.stage);
     this.makeBar();
     this.makeScreen();
-    figure.addEventListener("keydown", ({ key }) => { if (key === "Escape") this.revert(); });
+    figure.addEventListener("keydown", ({ key, isComposing }) => {
+      if (key === "Escape" && !isComposing) this.revert();
+    });
     addEventListener("resize", () => this.look());
     new IntersectionObserver(([{ isIntersecting }]) => isIntersecting || this.pause())
       .observe(figure);
@@ -132,15 +134,17 @@ export class Live {
     playing = this;
     this.figure.classList.add("playing");
     this.play.title = this.play.ariaLabel = "Pause";
+    const turn = this.turn = {}; // of this start
     await this.look();
     let last = performance.now(), ahead = 0; // frames
     const tick = (now) => {
-      if (!this.isPlaying) return;
+      if (!this.isPlaying || this.turn !== turn) return;
+      const { first, count, fps } = this.made ?? { count: 1 };
+      if (count < 2) return this.pause();
       requestAnimationFrame(tick);
-      const { first, count, fps } = this.made ?? { first: 1, count: 1, fps: 24 };
       ahead += Math.max(0, now - last) / 1000 * fps;
       last = now;
-      if (ahead < 1 || this.drawing || count < 2) return;
+      if (ahead < 1 || this.drawing) return;
       this.frame = first + (this.frame - first + Math.floor(ahead)) % count;
       ahead %= 1;
       this.look();
@@ -175,7 +179,9 @@ export class Live {
     const { text } = this.field, isOriginal = text === this.original;
     if (!isOriginal) this.other = text;
     this.view = WHOLE;
+    this.set = {};
     this.pointed = 0;
+    this.figure.dispatchEvent(new Event("reverted"));
     this.field.text = isOriginal ? this.other : this.original;
   }
 
@@ -241,9 +247,11 @@ export class Live {
   async lightAt(event) {
     this.pause();
     const [x, y] = this.pointAt(event);
-    const { places } = await this.script.at({ frame: this.frame, x, y });
-    const own = places.join(" ").split(`${this.name}:`)[1];
-    const line = own ? parseInt(own, 10) : 0, text = this.field.text.split("\n")[line - 1];
+    const { places } = await this.script.at({ frame: this.frame, x, y })
+      .catch(() => ({ places: [] })); // the next picture says why
+    const own = places.join(" ").split(" ").find((word) => word.startsWith(`${this.name}:`));
+    const line = own ? parseInt(own.slice(this.name.length + 1), 10) : 0;
+    const text = this.field.text.split("\n")[line - 1] ?? "";
     this.field.light(line);
     this.note.textContent = line ? `${line}: ${text.trim()}` : "No line of this script made this.";
     this.note.hidden = false;

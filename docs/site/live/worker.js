@@ -8,7 +8,12 @@ let engine, ready = Promise.resolve(), running = ""; // running: the script whos
 let more, names; // the second file of Lua modules; the names of files/
 const asked = new Set(), given = {}; // paths; files of readers
 
-const json = async (name) => (await fetch(name)).json();
+const part = async (name) => {
+  const answer = await fetch(name);
+  if (!answer.ok) throw new Error(`${name} could not be loaded: ${answer.status}.`);
+  return answer;
+};
+const json = async (name) => (await part(name)).json();
 
 /** Whether a file that was looked for is there; it is then the engine's. */
 const give = async (path) => {
@@ -18,17 +23,29 @@ const give = async (path) => {
   const list = isOwn ? more ??= await json("more.json") : names ??= await json("files.json");
   if (isOwn ? !(name in list) : !list.includes(name)) return false;
   engine.file(path, isOwn ? list[name]
-    : new Uint8Array(await (await fetch(`files/${name}`)).arrayBuffer()));
+    : new Uint8Array(await (await part(`files/${name}`)).arrayBuffer()));
   return true;
+};
+
+/** Runs a script with those of the values for which it has parameters. */
+const run = (source, name, set) => {
+  const options = { name, ...LIMITS }, values = Object.entries(set);
+  try { engine.run(source, { ...options, set }); } catch (error) {
+    if (!values.length) throw error;
+    engine.run(source, options);
+    const known = engine.parameters().map((one) => one.name);
+    const kept = values.filter(([one]) => known.includes(one));
+    if (kept.length === values.length) throw error;
+    engine.run(source, { ...options, set: Object.fromEntries(kept) });
+  }
 };
 
 /** Runs a script, unless it has run, and builds a frame. Only what `line` made is in it, if any. */
 const build = ({ source, name, set, frame, line }) => {
-  const kept = Object.fromEntries(Object.entries(set).filter(([one]) => source.includes(one)));
-  const wanted = JSON.stringify([name, source, kept]);
+  const wanted = JSON.stringify([name, source, set]);
   if (running !== wanted) {
     running = "";
-    engine.run(source, { name, set: kept, ...LIMITS });
+    run(source, name, set);
     running = wanted;
   }
   const film = engine.film(), last = film.first + film.count - 1;

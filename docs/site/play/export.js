@@ -68,26 +68,38 @@ async function packed(rgba, width, height) {
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
-/** A fraction of a second that is `frames` of them: of two bytes each. */
-const delay = (frames, fps) =>
-  Number.isInteger(fps) && fps < 1000 ? [frames, fps] : [Math.round(frames * 1000 / fps), 1000];
+/** The time of `frames` after the first `from` of a film, as a fraction of a second; two bytes each. */
+const delay = (from, frames, fps) => {
+  const at = index => Math.round(index * 1000 / fps);
+  return Number.isInteger(fps) && fps < 1000 ? [frames, fps] : [at(from + frames) - at(from), 1000];
+};
+const MOST_BYTES = 2 ** 30;
+
+/** Refuses a file of too many bytes. */
+export function expectRoom(bytes) {
+  if (bytes > MOST_BYTES) throw new Error("The file would be larger than 1 GiB.");
+}
 const LONGEST = 60; // seconds of a picture: its delay has two bytes
 
 /** An APNG, or a PNG of one frame. frame(index): its RGBA with straight alpha; equal neighbours are
  * one picture. */
 export async function png({ width, height, fps, count, frame }) {
   const pictures = [];
-  let last;
+  let last, size = 0;
   for (let index = 0; index < count; index++) {
     const rgba = (await frame(index)).slice();
     if (last && rgba.every((code, i) => code === last[i])
       && pictures.at(-1).frames < LONGEST * fps) pictures.at(-1).frames++;
-    else pictures.push({ bytes: await packed(rgba, width, height), frames: 1 });
+    else {
+      const bytes = await packed(rgba, width, height);
+      expectRoom(size += bytes.length);
+      pictures.push({ bytes, frames: 1, from: index });
+    }
     last = rgba;
   }
   let number = 0;
-  const moving = count > 1, parts = pictures.flatMap(({ bytes, frames }, i) => [
-    ...moving ? [chunk("fcTL", be(4, number++, width, height, 0, 0), be(2, ...delay(frames, fps)),
+  const moving = count > 1, parts = pictures.flatMap(({ bytes, frames, from }, i) => [
+    ...moving ? [chunk("fcTL", be(4, number++, width, height, 0, 0), be(2, ...delay(from, frames, fps)),
       [0, 0])] : [],
     i ? chunk("fdAT", be(4, number++), bytes) : chunk("IDAT", bytes)]);
   return [be(1, 0x89, 0x50, 0x4e, 0x47, 13, 10, 26, 10),

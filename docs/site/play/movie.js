@@ -2,11 +2,10 @@
 //
 //   planes --VideoEncoder--> chunks --+--> WebM
 //   sound  --AudioEncoder--> chunks --+
-import { RATE } from "./export.js";
+import { RATE, expectRoom } from "./export.js";
 import { webm } from "./webm.js";
 
 const SECOND = 1e6; // microseconds
-const MOST_BYTES = 2 ** 30;
 
 // The first that the browser can encode is taken.
 const VIDEO = ["vp09.00.51.08", "vp09.00.61.08", "vp8"], AUDIO = ["opus"];
@@ -21,13 +20,15 @@ async function supported(encoder, codecs, more) {
   return null;
 }
 
-/** Encodes what feed() gives to an encoder; returns its chunks and the decoder's configuration. */
-async function encoded(Encoder, config, kind, feed) {
+/** Encodes what feed() gives to an encoder; returns its chunks and the decoder's configuration. beat:
+ * is called for each chunk, as a sign of progress. */
+async function encoded(Encoder, config, kind, beat, feed) {
   const all = { chunks: [], config, kind, bytes: 0 };
   let fault;
   const encoder = new Encoder({
     error: error => { fault = error; },
     output: (chunk, { decoderConfig } = {}) => {
+      beat();
       const data = new Uint8Array(chunk.byteLength);
       chunk.copyTo(data);
       all.bytes += data.length;
@@ -37,13 +38,14 @@ async function encoded(Encoder, config, kind, feed) {
   });
   const check = () => {
     if (fault) throw new Error(`The encoder of this browser failed: ${fault.message}`);
-    if (all.bytes > MOST_BYTES) throw new Error("The file would be larger than 1 GiB.");
+    expectRoom(all.bytes);
   };
   try {
     encoder.configure(config);
     await feed(encoder, async () => {
       check();
       while (encoder.encodeQueueSize > 4 && !fault) await new Promise(done => setTimeout(done));
+      check();
     });
     await encoder.flush().catch(error => { fault ??= error; });
     check();
@@ -54,10 +56,10 @@ async function encoded(Encoder, config, kind, feed) {
   return all;
 }
 
-async function pictures({ width, height, fps, count, frame }, config) {
+async function pictures({ width, height, fps, count, frame, beat }, config) {
   const shape = { format: "I420", codedWidth: width, codedHeight: height, colorSpace: {
     primaries: "bt709", transfer: "iec61966-2-1", matrix: "bt709", fullRange: false } };
-  return encoded(VideoEncoder, config, 1, async (encoder, room) => {
+  return encoded(VideoEncoder, config, 1, beat, async (encoder, room) => {
     for (let index = 0; index < count; index++) {
       const picture = new VideoFrame(await frame(index), { ...shape,
         timestamp: Math.round(index * SECOND / fps), duration: Math.round(SECOND / fps) });
@@ -68,8 +70,8 @@ async function pictures({ width, height, fps, count, frame }, config) {
   });
 }
 
-async function samples([left, right], config) {
-  return encoded(AudioEncoder, config, 2, async (encoder, room) => {
+async function samples([left, right], config, beat) {
+  return encoded(AudioEncoder, config, 2, beat, async (encoder, room) => {
     for (let at = 0; at < left.length; at += RATE) {
       const size = Math.min(RATE, left.length - at), data = new Float32Array(2 * size);
       data.set(left.subarray(at, at + size));
@@ -87,7 +89,7 @@ async function samples([left, right], config) {
 
 const BITS = 0.3; // of a pixel: much for a drawing
 
-/** The parts of a WebM file. film: { width, height, fps, count, frame }, where frame(index) is
+/** The parts of a WebM file. film: { width, height, fps, count, frame, beat }, where frame(index) is
  * planes. sound: two channels, or null. */
 export async function movie(film, sound) {
   const { width, height, fps, count } = film;
@@ -105,6 +107,10 @@ export async function movie(film, sound) {
     throw new Error(`This browser cannot encode ${width} x ${height} pixels${
       sound ? " with sound" : ""} for WebM.`);
   }
-  const video = await pictures(film, config), audio = sound && await samples(sound, heard);
+  const video = await pictures(film, config);
+  const audio = sound && await samples(sound, heard, film.beat);
+  if (audio && !audio.description) {
+    throw new Error("The encoder of this browser does not describe its sound. Take APNG.");
+  }
   return webm({ ...film, seconds: count / fps }, video, audio);
 }

@@ -18,10 +18,11 @@ const SCALES = [1, 2, 0.5, 0.25];
 const at = id => document.getElementById(id);
 const say = sentence => { at("said").textContent = sentence; };
 const live = new Live(document.querySelector("figure.script"));
+const OWN = live.original; // the script that the page has
 const files = new Set();
 let facts = {}, known = ""; // what the worker said about the film, and of which film it was
 let shown = "", waits; // the command and its script; until the digest is printed
-let isSaving = false;
+let isSaving = false, wasStopped = false;
 
 const now = () => film(live.field.text, { name: live.name, set: live.set });
 const size = () => at("size").value.split("x").map(Number);
@@ -32,12 +33,12 @@ const long = colour => colour.length < 6 ? colour.replace(/[^#]/g, "$&$&").slice
   : colour.slice(0, 7);
 
 function control({ name, kind, value, about, least, most, choices }) {
+  const given = Object.hasOwn(live.set, name) ? live.set[name] : value;
   const isRange = kind === "number" && Number.isFinite(most - least);
-  const shown = element("output", { value: isRange ? live.set[name] ?? value : "" });
+  const shown = element("output", { value: isRange ? given : "" });
   const own = kind === "choice" ? element("select", {}, ...choices.map(one => new Option(one)))
     : element("input", { type: isRange ? "range" : { number: "number", boolean: "checkbox",
       colour: "color" }[kind] ?? "text" });
-  const given = live.set[name] ?? value;
   if (isRange) Object.assign(own, { min: least, max: most });
   const isWhole = [least, most, Number(value)].every(Number.isInteger) && most - least >= 10;
   if (kind === "number") own.step = isWhole ? 1 : isRange ? (most - least) / 200 : "any";
@@ -61,9 +62,9 @@ function printDigest() {
   clearTimeout(waits);
   waits = setTimeout(async () => {
     if (live.isPlaying || isSaving) return printDigest();
-    const { frame } = live, [width, height] = size();
+    const { frame } = live, [width, height] = size(), of = shown;
     const digest = await now().digest({ frame, width, height }).catch(() => "");
-    if (digest && frame === live.frame) at("digest").textContent = `${frame} ${digest}`;
+    if (digest && frame === live.frame && of === shown) at("digest").textContent = `${frame} ${digest}`;
   }, PATIENCE);
 }
 
@@ -98,6 +99,8 @@ async function update() {
   const before = JSON.stringify(facts.parameters);
   facts = await now().about({ frame: live.frame }).catch(() => facts);
   at("printed").textContent = facts.printed;
+  live.set = Object.fromEntries(Object.entries(live.set).filter(([given]) =>
+    facts.parameters.some(({ name }) => name === given)));
   if (JSON.stringify(facts.parameters) === before) return;
   at("values").replaceChildren(...facts.parameters.map(control));
 }
@@ -110,7 +113,7 @@ async function soundOf({ count, fps }) {
   const context = new OfflineAudioContext(2, 1, RATE);
   for (const sound of sounds) {
     const name = sound.path.slice(0, 40);
-    if (sound.speed !== 1) throw new Error(`${name}: another speed is for the program alone.`);
+    if (sound.speed !== 1) throw new Error(`${name}: this page cannot change the speed of a sound; the program can.`);
     const bytes = sound.bytes?.slice().buffer ?? await (await fetch(sound.path)).arrayBuffer();
     const buffer = await context.decodeAudioData(bytes)
       .catch(() => { throw new Error(`${name}: this browser cannot read this sound.`); });
@@ -123,30 +126,35 @@ async function soundOf({ count, fps }) {
 
 const megabytes = bytes => `${(bytes / 1e6).toFixed(2)} MB`;
 
-export async function save() {
-  const kind = at("kind").value, [width, height] = size(), { made, frame } = live;
+const STOPPED = "Nothing was saved: it was stopped.";
+
+export async function save(kind = at("kind").value) {
+  const [width, height] = size(), { made, frame } = live;
   const { first, count } = kind === "png" ? { first: frame, count: 1 } : made;
   const sound = kind === "webm" ? await soundOf(made) : null;
+  if (wasStopped) throw new Error(STOPPED);
   return now().save({ kind, width, height, sound, first, count },
     share => { at("progress").value = share; });
 }
 
 async function saveOrStop() {
-  if (isSaving) return stop("Nothing was saved: it was stopped.");
-  isSaving = true;
+  wasStopped = isSaving;
+  if (isSaving) return stop("save", STOPPED);
+  const kind = at("kind").value;
+  isSaving = at("kind").disabled = true;
   live.pause();
   at("save").textContent = "Stop";
   say("");
   at("progress").hidden = false;
   at("progress").value = 0;
   try {
-    const blob = await save(), name = `film.${at("kind").value.replace("apng", "png")}`;
+    const blob = await save(kind), name = `film.${kind.replace("apng", "png")}`;
     const link = element("a", { href: URL.createObjectURL(blob), download: name });
     link.click();
     setTimeout(() => URL.revokeObjectURL(link.href), 6e4);
     say(`${name} was saved: ${megabytes(blob.size)}.`);
   } catch (error) { say(error.message); }
-  isSaving = false;
+  isSaving = at("kind").disabled = false;
   at("save").textContent = "Save";
   at("progress").hidden = true;
 }
@@ -171,15 +179,18 @@ async function take(list) {
 
 // ---- scripts
 
+const version = () => facts.version ?? live.figure.dataset.version;
+
 function replace(source) {
   live.set = {};
   live.frame = undefined;
+  live.original = live.other = source;
   live.field.text = source;
 }
 
 async function share() {
   try {
-    history.replaceState(null, "", await fragment(facts.version, live.field.text));
+    history.replaceState(null, "", await fragment(version(), live.field.text));
     await navigator.clipboard?.writeText(location.href).catch(() => {});
     say(`The address of this page now has the script${files.size ? ", but not its files" : ""}.`);
   } catch (error) { say(error.message); }
@@ -190,9 +201,9 @@ async function load() {
   if (given) replace(given.source);
   await live.look();
   if (live.made) await update();
-  if (given && facts.version !== given.version) {
+  if (given && version() !== given.version) {
     say(`This script comes from celspan ${given.version}, and this page has ${
-      facts.version}: the picture may differ.`);
+      version()}: the picture may differ.`);
   }
 }
 
@@ -200,8 +211,7 @@ async function showExamples() {
   const examples = await (await fetch(new URL("examples.json", import.meta.url))).json();
   at("examples").append(...examples.map(({ name, about }) => new Option(about ?? name, name)));
   at("examples").onchange = () => {
-    const one = examples.find(({ name }) => name === at("examples").value);
-    if (one) replace(one.source);
+    replace(examples.find(({ name }) => name === at("examples").value)?.source ?? OWN);
   };
 }
 
@@ -216,8 +226,11 @@ at("save").onclick = saveOrStop;
 at("share").onclick = share;
 at("files").onchange = () => take(at("files").files);
 live.figure.addEventListener("drawn", update);
-addEventListener("dragover", event => event.preventDefault());
+live.figure.addEventListener("reverted", () => { facts.parameters = undefined; }); // new controls
+const hasFiles = event => event.dataTransfer.types.includes("Files");
+addEventListener("dragover", event => { if (hasFiles(event)) event.preventDefault(); });
 addEventListener("drop", event => {
+  if (!hasFiles(event)) return;
   event.preventDefault();
   take(event.dataTransfer.files);
 });

@@ -29,13 +29,16 @@ export const calls = {
   async save({ kind, first, count, width, height, sound, ...question }, all) {
     const { build, engine, progress } = all;
     const { fps } = build({ ...question, frame: first }), isVideo = kind === "webm";
+    let share = 0;
+    const beat = () => progress(share);
     const frame = index => {
       build({ ...question, frame: first + index });
-      progress((index + 1) / count);
+      share = (index + 1) / count;
+      beat();
       const rgba = engine.pixels(width, height, undefined, isVideo);
       return isVideo ? planes(rgba, width, height) : rgba;
     };
-    const film = { width, height, fps, count, frame };
+    const film = { width, height, fps, count, frame, beat };
     return new Blob(await (isVideo ? movie(film, sound) : png(film)));
   },
 };

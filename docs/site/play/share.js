@@ -7,10 +7,13 @@ const MOST_SIGNS = 32000; // of a fragment: programs that pass addresses on cut 
 async function all(stream, most) {
   const parts = [];
   let size = 0;
-  for await (const part of stream) {
-    size += part.length;
+  const reader = stream.getReader();
+  for (;;) {
+    const { done, value } = await reader.read();
+    if (done) break;
+    size += value.length;
     if (size > most) throw new Error(`more than ${most} bytes`);
-    parts.push(part);
+    parts.push(value);
   }
   return new Uint8Array(await new Blob(parts).arrayBuffer());
 }
