@@ -90,7 +90,7 @@ const imports = (module, of, memory, files, now, most) => {
       of().setThrew(1, 0);
     }
   };
-  const stop = (what) => () => { throw new Error(`celspan: ${what}`); };
+  const stop = (what) => () => { throw new WebAssembly.RuntimeError(what); };
   const page = {
     find: (path) => files.find(memory.text(path)),
     size: (file) => files.bytes[file].length,
@@ -204,7 +204,7 @@ export const open = async (given, { files = {}, now = () => performance.now() } 
     const size = w * h * 4;
     if (size > rgba_size) {
       x.free(rgba);
-      rgba_size = 0;
+      rgba = rgba_size = 0; // the next line may fail
       rgba = room(size);
       rgba_size = size;
     }
@@ -256,10 +256,11 @@ export const open = async (given, { files = {}, now = () => performance.now() } 
     run(script, { name = "film.lua", set = {}, steps = 0, memory: most = 0,
                   room: bytes = MEMORY_MOST } = {}) {
       engine.close();
+      if (!(steps >= 0 && steps <= LIMIT_MOST && most >= 0 && most <= LIMIT_MOST && bytes > 0))
+        throw new Error(`celspan: steps and memory must be from 0 to 2^53, and room above 0, got ${
+          steps}, ${most} and ${bytes}`);
       room_most = Math.min(bytes, MEMORY_MOST);
-      if (!(steps >= 0 && steps <= LIMIT_MOST && most >= 0 && most <= LIMIT_MOST))
-        throw new Error(`celspan: steps and memory must be from 0 to 2^53, got ${steps} and ${most}`);
-      page = x.open(steps, most);
+      page = x.open(steps, Math.min(most, MEMORY_MOST));
       if (!page) throw new Error("celspan: there is no memory for a film");
       for (const [key, value] of Object.entries(set))
         lend([key, String(value)], (a, _, b) => check(x.set(page, a, b)));

@@ -50,8 +50,17 @@ export interface Engine {
     { name?: string; set?: Values; steps?: number; memory?: number; room?: number }): Film;
   film(): Film;
   frame(number: number): void;
-  /** Valid until the next call. */
-  pixels(width: number, height: number): Uint8ClampedArray;
+  /** Leaves only what a line made, such as "film.lua:7"; whether there is any. */
+  keep(place: string): boolean;
+  /** The lines that made the objects at a point of the film, from the front. */
+  at(x: number, y: number): string[];
+  version(): string;
+  parameters(): { name: string; kind: string; value: string; about: string; least: number;
+                  most: number; choices: string[] }[];
+  /** Valid until the next call. part: left, top, width, height in the frame. isVideo: over black and
+   * dithered, as the program gives frames to encoders. */
+  pixels(width: number, height: number, part?: [number, number, number, number],
+    isVideo?: boolean): Uint8ClampedArray;
   png(width: number, height: number): Uint8Array;
   digest(width: number, height: number): string;
   memory(): { held: number; most: number; all: number };

@@ -239,6 +239,8 @@ typedef struct lines {
   page *page;
   celspan_point point;
   const char *place; /* "film.lua:7" */
+  cs_mark mark;      /* of the value that is looked at */
+  bool is_found, lacks_memory;
   celspan_status status;
   luaL_Buffer list;
 } lines;
@@ -252,16 +254,31 @@ static void push_place(lua_State *L, cs_mark mark) {
   lua_remove(L, -2);
 }
 
+/* light userdata: lines. Runs protected: whether the mark is of the place. */
+static int find_place(lua_State *L) {
+  lines *all = lua_touserdata(L, 1);
+  push_place(L, all->mark);
+  const char *text = lua_tostring(L, -1);
+  for (const char *at = strstr(text, all->place); at; at = strstr(at + 1, all->place)) {
+    const char after = at[strlen(all->place)];
+    all->is_found |= (at == text || at[-1] == ' ') && !(after >= '0' && after <= '9');
+  }
+  return 0;
+}
+
+/* Raises no error, which would pass over those who own what was found so far. */
 static bool is_of_line(void *user, cs_mark mark) {
-  const lines *all = user;
+  lines *all = user;
   lua_State *L = all->page->L;
-  push_place(L, mark);
-  const char *at = strstr(lua_tostring(L, -1), all->place);
-  while (at && at[strlen(all->place)] >= '0' && at[strlen(all->place)] <= '9')
-    at = strstr(at + 1, all->place);
-  bool is_found = at;
-  lua_pop(L, 1);
-  return is_found;
+  all->mark = mark;
+  all->is_found = false;
+  lua_pushcfunction(L, find_place);
+  lua_pushlightuserdata(L, all);
+  if (lua_pcall(L, 1, 0, 0) != LUA_OK) {
+    all->lacks_memory = true;
+    lua_pop(L, 1);
+  }
+  return all->is_found;
 }
 
 /* light userdata: lines. Runs protected, as find_lines. */
@@ -272,7 +289,7 @@ static int keep_line(lua_State *L) {
   all->status =
       cs_made_keep(&made, (celspan_exposure *)p->frame.exposures, p->frame.exposure_count);
   p->has_line = made.is_any;
-  return 0;
+  return all->lacks_memory ? luaL_error(L, "out of memory") : 0;
 }
 
 static void add_line(void *user, const cs_hit *hit) {
