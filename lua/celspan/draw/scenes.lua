@@ -12,11 +12,17 @@ function scenes.rest(how)
   return ""
 end
 
+--- The rostrum as a lens at rest sees it, all sharp.
+local function at_rest(rostrum, planes, lens, see)
+  return rostrum:with(see(planes, { x = 0, y = 0, z = 0, focal = lens.focal, focus = lens.focal,
+    aperture = 0, cx = lens.cx, cy = lens.cy }))
+end
+
 --- Keeps what a rostrum shows. see(planes, lens): its cels. Returns the rostrum, or as it is with
 --- its lens at rest.
 function scenes.keep(rostrum, planes, lens, see)
   known[rostrum] = { planes = planes, lens = lens, see = see }
-  return is_resting and scenes.at_rest(rostrum) or rostrum
+  return is_resting and at_rest(rostrum, planes, lens, see) or rostrum
 end
 
 --- rostrum:named(name), with its planes.
@@ -30,15 +36,6 @@ end
 function scenes.under(rostrum, other)
   local own, seen = known[rostrum], known[other]
   return own and seen and rostrum:with(own.see(own.planes, seen.lens)) or rostrum
-end
-
---- The rostrum as a lens at rest sees it, all sharp; as it is, if it shows no planes.
-function scenes.at_rest(rostrum)
-  local own = known[rostrum]
-  if not own then return rostrum end
-  local lens = own.lens
-  return rostrum:with(own.see(own.planes, { x = 0, y = 0, z = 0, focal = lens.focal,
-    focus = lens.focal, aperture = 0, cx = lens.cx, cy = lens.cy }))
 end
 
 return fields.seal("scenes", scenes)

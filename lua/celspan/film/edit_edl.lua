@@ -132,8 +132,8 @@ end
 local function frame_of(state, text)
   local is_dropped = state.is_dropped or text:find ";"
   if is_dropped and not state.dropped then
-    fail("line %d: an EDL with drop frames at a rate that has none: %.14g; give the films of its "
-      .. "shots fps = 30000 / 1001, or write FCM: NON-DROP FRAME", state.line, state.rate)
+    fail("line %d: an EDL with drop frames at a rate that has none: %.14g; set fps = 30000 "
+      .. "/ 1001 in the films of its shots, or write FCM: NON-DROP FRAME", state.line, state.rate)
   end
   local frame, message = timecode.frame(text, state.codes, is_dropped and state.dropped or 0)
   return frame or fail("line %d: %s", state.line, message)

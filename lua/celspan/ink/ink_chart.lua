@@ -172,11 +172,10 @@ function Search:beside(at)
   local areas = self.chart:divide(self.noun, self.gap)
   for far = 2, NEAR do
     for _, way in ipairs(WAYS) do
-      local u, v = x + far * way[1], y + far * way[2]
-      local number, is_line = native.areas_at(areas, u, v)
-      if number > 0 and not is_line then
-        return ("; %s is beside it"):format(place_text { self.chart:place(u, v) })
-      end
+      local u, v = self.chart:place(x + far * way[1], y + far * way[2])
+      local near = { tonumber(tenth(u)), tonumber(tenth(v)) } -- as it is written
+      local number, is_line = native.areas_at(areas, self.chart:pixel(near))
+      if number > 0 and not is_line then return ("; %s is beside it"):format(place_text(near)) end
     end
   end
   return ""

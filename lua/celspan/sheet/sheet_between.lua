@@ -213,9 +213,11 @@ local function warn_of(subject, run, cell, unsure)
   if cell.name and not cell.is_between and not run.is_charted then
     warn("%q has no drawing and no mark i, and is shown as an in-between", cell.name)
   end
-  for _, i in ipairs { run.first, run.last } do
-    local key = subject.cells[i]
-    if not key_drawing(subject, key):bounds() then warn("the key %q is empty", key.name) end
+  local first, last = subject.cells[run.first], subject.cells[run.last]
+  local is_first_empty = not key_drawing(subject, first):bounds()
+  if is_first_empty ~= not key_drawing(subject, last):bounds() then
+    warn("the key %q is empty, and the other one is not",
+      is_first_empty and first.name or last.name)
   end
 end
 

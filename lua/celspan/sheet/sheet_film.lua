@@ -64,14 +64,10 @@ end
 
 --- What a frame shows, where multiplane cameras rest.
 local function shown(film, number)
-  local made, list = film:at(number), {}
-  if type(made) ~= "table" then return scenes.at_rest(made) end
-  for i, exposure in ipairs(made) do
-    local is_bare = type(exposure) ~= "table"
-    list[i] = is_bare and scenes.at_rest(exposure)
-      or { scenes.at_rest(exposure[1]), exposure[2] }
-  end
-  return list
+  scenes.rest "on"
+  local good, made = pcall(film.at, film, number)
+  scenes.rest "off"
+  return good and made or error(made, 0)
 end
 
 --- The columns of all frames, or of those with the listed numbers.

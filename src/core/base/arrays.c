@@ -58,7 +58,7 @@ celspan_status cs_array_make(celspan_context *context, void **items, cs_room *ro
 }
 
 void cs_arrays_free(cs_memory *memory, void *first, const void *end) {
-  for (array *at = first; at != end; at++) {
+  for (array *at = first; (void *)at < end; at++) {
     cs_mem_free(memory, at->items, checked_bytes(at));
     *at = (array){0};
   }
@@ -66,7 +66,7 @@ void cs_arrays_free(cs_memory *memory, void *first, const void *end) {
 
 size_t cs_arrays_bytes(const void *first, const void *end) {
   size_t bytes = 0;
-  for (const array *at = first; at != end; at++)
+  for (const array *at = first; (const void *)at < end; at++)
     bytes += checked_bytes(at);
   return bytes;
 }

@@ -166,7 +166,7 @@ end }
     local text = out .. err
     bench:remove()
     assert.matches('layer "A", A1%-A4: "A3" has no drawing and no mark i', text)
-    assert.matches('layer "A", A1%-A4: the key "A4" is empty', text)
+    assert.matches('layer "A", A1%-A4: the key "A4" is empty, and the other one is not', text)
     assert.is_nil(text:find('"A2" has no drawing', 1, true))
   end)
 

@@ -234,7 +234,7 @@ describe("an EDL", function()
     assert.truthy(written("n.edl", script_at(30)):find("FCM: NON-DROP FRAME\n", 1, true))
     refused("line 3: 00:01:00:00 does not exist with drop frames", "b.edl", edl("FCM: DROP FRAME",
       "001  a  V  C  00:00:00:00 00:01:00:00 01:00:00:00 01:01:00:02"), long)
-    refused("line 2: an EDL with drop frames at a rate that has none: 24; give the films", "b.edl",
+    refused("line 2: an EDL with drop frames at a rate that has none: 24; set fps =", "b.edl",
       edl "FCM: DROP FRAME", films_at(24))
   end)
 

@@ -151,7 +151,7 @@ describe("a graphic #plain", function()
 
   it("is refused with a sentence", function()
     engine()
-    assert.matches("--engine DIR names its folder, which ./run web makes",
+    assert.matches("give its folder with --engine DIR; ./run web makes one",
       refused(ASKED, "--engine empty"), 1, true)
     assert.matches("leave --frames out", refused(FILM, "--frames 1-3"), 1, true)
     assert.matches("takes no --quality", refused(FILM, "--quality 5"), 1, true)

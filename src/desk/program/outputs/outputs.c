@@ -5,6 +5,7 @@
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
+#include <strings.h>
 
 #include "inside/sinks.h"
 #include "program/film/view.h"
@@ -147,8 +148,10 @@ static void name_of(const cs_request *request, const char *path, char out[NAME_S
                      : strcmp(path, "-") == 0 ? "-"
                      : format                 ? format
                                               : cs_file_ending(path);
-  const char *folder = path ? strstr(path, ".ograf/") : NULL;
-  if (folder && !folder[sizeof ".ograf/" - 1])
+  size_t size = path ? strlen(path) : 0, end = size;
+  while (end > 0 && path[end - 1] == '/')
+    end--;
+  if (end < size && end >= 6 && strncasecmp(path + end - 6, ".ograf", 6) == 0)
     name = "ograf";
   snprintf(out, NAME_SIZE, "%s", name);
   for (char *at = out; *at; at++)

@@ -31,9 +31,9 @@ local function engine_folder()
     if not place and program.entries(home .. BESIDE[i]) then place = home .. BESIDE[i] end
   end
   if place and program.sha256(place .. "/celspan.wasm") then return place end
-  program.usage("%s: the film has parameters, so its graphic contains celspan for web pages, which "
-    .. "%s: --engine DIR names its folder, which ./run web makes, and npm install celspan-web",
-    output, place and "is not in " .. place or "was not found beside the program")
+  program.usage("%s: a graphic whose film has parameters contains celspan for web pages, which %s: "
+    .. "give its folder with --engine DIR; ./run web makes one, and so does npm install "
+    .. "celspan-web", output, place and "is not in " .. place or "was not found beside the program")
 end
 
 --- The path of a file without links in its folder, by which a script names the file.
@@ -42,8 +42,8 @@ local function absolute(path)
   return (program.resolve(place or ".") or "") .. "/" .. (name or path)
 end
 
---- Copies the files that the script asks for, in all frames. Returns their places by their names,
---- in which the script is at the top.
+--- Copies the files that the script asks for, in all frames, once all are found right. Returns
+--- their places by their names, in which the script is at the top.
 local function copy_files(base)
   local places = {}
   for number = script.first, script.first + script.frames - 1 do script:build(number) end
@@ -52,13 +52,15 @@ local function copy_files(base)
     local name, ending = path:sub(#base + 1), path:lower():match "%.(%w+)$" or "/"
     if program.sha256(path) then
       if PICTURES:find(" " .. ending .. " ", 1, true) then
-        program.usage("%s: celspan for web pages reads no pictures: leave it out", asked)
+        program.usage("%s: celspan for web pages cannot read pictures: use a drawing (SVG)", asked)
       elseif not program.is_within(base, path) then
         program.usage("%s: a graphic contains files of the script's folder: copy it there", asked)
       end
       places[name] = "files" .. name
-      program.save(folder .. "/" .. places[name], program.bytes(path))
     end
+  end
+  for name, place in pairs(places) do
+    program.save(folder .. "/" .. place, program.bytes(base .. name))
   end
   return places
 end

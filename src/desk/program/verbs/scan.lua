@@ -43,8 +43,8 @@ local function open()
   if request.pegs == "none" then
     options.pegs = false
   elseif request.pegs and request.pegs ~= "acme" then
-    program.usage("--pegs: '%s' is not acme or none; a script gives other holes, as the field "
-      .. "pegs of ink.scan", request.pegs)
+    program.usage("--pegs: '%s' is not acme or none; other holes can be given only in a script: "
+      .. "field pegs of ink.scan", request.pegs)
   end
   if request.levels then
     local list = program.split(request.levels)

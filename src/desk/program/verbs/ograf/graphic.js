@@ -17,6 +17,9 @@ const place_at = ({ from, begun }, time) =>
   from + Math.max(0, Math.floor((time - begun) / 1000 * FILM.fps + 1e-6));
 const has_come = (state, time) => state.from === null || place_at(state, time) >= state.to;
 
+const is_one_run = (one, other) =>
+  one.from === other.from && one.to === other.to && one.begun === other.begun;
+
 // null: nothing is seen.
 function frame_at(state, time) {
   const frame = state.from === null ? END : Math.min(state.to, place_at(state, time));
@@ -32,7 +35,9 @@ const leave = (state, from, skips, time) =>
 
 const acts = {
   playAction(state, { delta = 1, goto, skipAnimation }, time) {
-    const step = Math.max(0, goto ?? (state.step ?? -1) + delta), seen = frame_at(state, time);
+    const wanted = goto ?? (state.step ?? -1) + delta, seen = frame_at(state, time);
+    if (!Number.isInteger(wanted)) throw new Error(`a step is a whole number, got ${goto ?? delta}`);
+    const step = Math.max(0, wanted);
     if (step >= FILM.steps.length) return leave(state, seen ?? FILM.first, skipAnimation, time);
     const from = state.step === undefined ? FILM.first : seen;
     return run(state, step, from, FILM.steps[step], skipAnimation, time);
@@ -128,9 +133,11 @@ export default class extends HTMLElement {
     try {
       const state = acts[type](this.#state, params ?? {}, this.#now);
       this.#change(state);
-      for (let is_there = false; !is_there && this.#state === state && this.#time === null;) {
+      const goes_on = () => type !== "updateAction" && this.#time === null
+        && is_one_run(this.#state, state);
+      for (let is_there = false; !is_there && goes_on();) {
         is_there = has_come(state, this.#now);
-        this.#show(state);
+        this.#show(this.#state);
         if (!is_there) await new Promise(requestAnimationFrame);
       }
     } catch (fault) { return refusal(fault); }
