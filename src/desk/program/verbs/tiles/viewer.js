@@ -19,7 +19,8 @@
 // INVARIANT  `view` is drawn, `goal` is its target. Movements set the goal; a drag sets both,
 // because the point under a finger stays there. Nothing is drawn unless something moves or a tile
 // arrives. Every tile of the current level is drawn once: from its own image if that is loaded,
-// else from a part of the nearest coarser tile that is loaded.
+// else from a part of the nearest coarser tile that is loaded. Where there is none, because the
+// window has become smaller, the finer tiles that are always kept are drawn instead of the level.
 function show_tiles(canvas, pyramid, hooks) {
   "use strict";
   const KEPT = 600, AT_ONCE = 8; // tiles in memory, tiles being loaded
@@ -139,14 +140,16 @@ function show_tiles(canvas, pyramid, hooks) {
       on_x(x1) - at_x, on_y(y1) - at_y);
   }
 
+  // Returns whether there was something to draw, or never will be.
   function draw_place(level, column, row, distance) {
     const is_usable = (...at) => hooks.is_made(...at) && !tile_at(...at).is_lost;
     const best = nearest(level, column, row, is_usable);
-    if (!best) return;
+    if (!best) return true;
     want(best, best.level * 1e6 + distance);
     const loaded = nearest(best.level, Math.floor(column / 2 ** (level - best.level)),
       Math.floor(row / 2 ** (level - best.level)), (...at) => tile_at(...at).is_ready);
     if (loaded) draw(loaded, level, column, row);
+    return loaded !== null;
   }
 
   function draw_all() {
@@ -160,6 +163,7 @@ function show_tiles(canvas, pyramid, hooks) {
     const first = v => Math.max(0, Math.floor(v / side));
     const column1 = Math.min(columns(level) - 1, Math.floor((view.x + half_x) / side));
     const row1 = Math.min(rows(level) - 1, Math.floor((view.y + half_y) / side));
+    let is_full = true;
     clock++;
     queue.clear();
     pencil.clearRect(0, 0, canvas.width, canvas.height);
@@ -167,20 +171,29 @@ function show_tiles(canvas, pyramid, hooks) {
     pencil.imageSmoothingQuality = "high";
     for (let row = first(view.y - half_y); row <= row1; row++)
       for (let column = first(view.x - half_x); column <= column1; column++)
-        draw_place(level, column, row,
-          Math.hypot((column + 0.5) * side - view.x, (row + 0.5) * side - view.y) / side);
-    want_base();
+        is_full = draw_place(level, column, row,
+          Math.hypot((column + 0.5) * side - view.x, (row + 0.5) * side - view.y) / side) && is_full;
+    const kept = kept_tiles();
+    for (const tile of kept) want(tile, -1);
+    if (!is_full && kept[0]?.level > level && kept.every(tile => tile.is_ready)) draw_only(kept);
     fetch_more();
     forget_old();
   }
 
+  function draw_only(some) {
+    pencil.clearRect(0, 0, canvas.width, canvas.height);
+    for (const tile of some) draw(tile, tile.level, tile.column, tile.row);
+  }
+
   // The finest level with few tiles is always kept, so that every view shows something.
-  function want_base() {
+  function kept_tiles() {
+    const kept = [];
     let level = top;
     while (level > lowest && columns(level) * rows(level) > 4) level--;
     for (let row = 0; row < rows(level); row++)
       for (let column = 0; column < columns(level); column++)
-        if (hooks.is_made(level, column, row)) want(tile_at(level, column, row), -1);
+        if (hooks.is_made(level, column, row)) kept.push(tile_at(level, column, row));
+    return kept;
   }
 
   // ------------------------------------------------------------ moving
