@@ -43,10 +43,10 @@ const remainders = Uint32Array.from({ length: 256 }, (_, n) => {
 });
 
 function chunk(kind, ...numbers) {
-  const bytes = new Uint8Array(numbers.reduce((sum, one) => sum + one.length, 12));
+  const bytes = new Uint8Array(12 + size(numbers));
   new DataView(bytes.buffer).setUint32(0, bytes.length - 12);
   let at = 4, crc = -1;
-  for (const one of [new TextEncoder().encode(kind), ...numbers]) {
+  for (const one of [text(kind), ...numbers]) {
     bytes.set(one, at);
     at += one.length;
   }
@@ -58,6 +58,11 @@ function chunk(kind, ...numbers) {
 /** Numbers of some bytes each, the highest byte first: be(2, 1, 258) is 0, 1, 1, 2. */
 export const be = (size, ...numbers) => Uint8Array.from(numbers.flatMap(number =>
   Array.from({ length: size }, (_, i) => Math.floor(number / 256 ** (size - 1 - i)))));
+
+export const text = words => new TextEncoder().encode(words);
+
+/** The bytes of parts. */
+export const size = parts => parts.reduce((sum, part) => sum + part.length, 0);
 
 async function packed(rgba, width, height) {
   const rows = new Uint8Array((4 * width + 1) * height); // each begins with its filter: none

@@ -1,14 +1,22 @@
 // A film as a video, encoded by WebCodecs.
 //
-//   planes --VideoEncoder--> chunks --+--> WebM
+//   planes --VideoEncoder--> chunks --+--> MP4 or WebM
 //   sound  --AudioEncoder--> chunks --+
 import { RATE, expectRoom } from "./export.js";
+import { mp4 } from "./mp4.js";
 import { webm } from "./webm.js";
 
 const SECOND = 1e6; // microseconds
 
-// The first that the browser can encode is taken.
-const VIDEO = ["vp09.00.51.08", "vp09.00.61.08", "vp8"], AUDIO = ["opus"];
+// Of the codecs, the first that the browser can encode is taken. H.264 in its High and Baseline
+// profiles has the first level of 4, 5.1 and 6.2 with enough blocks of 16 x 16 pixels (table A-1).
+const BLOCKS = { 28: 8192, 33: 36864, "3e": 139264 };
+const levels = blocks => Object.keys(BLOCKS).filter(level => blocks <= BLOCKS[level]);
+export const KINDS = {
+  mp4: { name: "MP4", write: mp4, sounds: ["mp4a.40.2", "opus"],
+    codecs: blocks => levels(blocks).flatMap(level => [`avc1.6400${level}`, `avc1.4200${level}`]) },
+  webm: { name: "WebM", write: webm, sounds: ["opus"],
+    codecs: () => ["vp09.00.51.08", "vp09.00.61.08", "vp8"] } };
 
 /** The first configuration that an encoder supports. */
 async function supported(encoder, codecs, more) {
@@ -89,28 +97,28 @@ async function samples([left, right], config, beat) {
 
 const BITS = 0.3; // of a pixel: much for a drawing
 
-/** The parts of a WebM file. film: { width, height, fps, count, frame, beat }, where frame(index) is
- * planes. sound: two channels, or null. */
-export async function movie(film, sound) {
-  const { width, height, fps, count } = film;
+/** The parts of a file of one of KINDS. film: { width, height, fps, count, frame, beat }, where
+ * frame(index) is planes. sound: two channels, or null. */
+export async function movie(film, sound, { name, write, codecs, sounds }) {
+  const { width, height, fps, count } = film, blocks = Math.ceil(width / 16) * Math.ceil(height / 16);
   if (!globalThis.VideoEncoder || !globalThis.AudioEncoder) {
     throw new Error("This browser has no WebCodecs, for videos. Take APNG, or the program.");
   }
   if (width % 2 || height % 2) {
     throw new Error(`A video has an even width and height, not ${width} x ${height}.`);
   }
-  const config = await supported(VideoEncoder, VIDEO, { width, height, framerate: fps,
+  const config = await supported(VideoEncoder, codecs(blocks), { width, height, framerate: fps,
     bitrate: Math.max(1e6, Math.round(width * height * fps * BITS)), latencyMode: "quality" });
-  const heard = sound && await supported(AudioEncoder, AUDIO,
+  const heard = sound && await supported(AudioEncoder, sounds,
     { sampleRate: RATE, numberOfChannels: 2, bitrate: 160000 });
   if (!config || sound && !heard) {
     throw new Error(`This browser cannot encode ${width} x ${height} pixels${
-      sound ? " with sound" : ""} for WebM.`);
+      sound ? " with sound" : ""} for ${name}.`);
   }
   const video = await pictures(film, config);
   const audio = sound && await samples(sound, heard, film.beat);
   if (audio && !audio.description) {
     throw new Error("The encoder of this browser does not describe its sound. Take APNG.");
   }
-  return webm({ ...film, seconds: count / fps }, video, audio);
+  return write({ ...film, seconds: count / fps }, video, audio);
 }

@@ -9,8 +9,10 @@ import { fragment, shared } from "./share.js";
 const PATIENCE = 400; // milliseconds until a still frame gets its digest
 const MOST_TEXT = 1e6, MOST_FILE = 2 ** 28; // bytes
 // What this page saves, and what the program alone does.
-const HERE = { png: "Picture (PNG)", webm: "Film with sound (WebM)", apng: "Film (APNG)" };
-const THERE = { mp4: "Film (MP4)", svg: "Drawing (SVG)", json: "Lottie", plane: "Plane" };
+const HERE = { png: "Picture (PNG)", mp4: "Film with sound (MP4)", webm: "Film with sound (WebM)",
+               apng: "Film (APNG)" };
+const VIDEOS = ["mp4", "webm"];
+const THERE = { svg: "Drawing (SVG)", json: "Lottie", plane: "Plane" };
 const BY_PROGRAM = "This page cannot write it. The program can, by the command below.";
 const STILLS = ["png", "svg"];
 const SCALES = [1, 2, 0.5, 0.25];
@@ -113,7 +115,9 @@ async function soundOf({ count, fps }) {
   const context = new OfflineAudioContext(2, 1, RATE);
   for (const sound of sounds) {
     const name = sound.path.slice(0, 40);
-    if (sound.speed !== 1) throw new Error(`${name}: this page cannot change the speed of a sound; the program can.`);
+    if (sound.speed !== 1) {
+      throw new Error(`${name}: this page cannot change the speed of a sound; the program can.`);
+    }
     const bytes = sound.bytes?.slice().buffer ?? await (await fetch(sound.path)).arrayBuffer();
     const buffer = await context.decodeAudioData(bytes)
       .catch(() => { throw new Error(`${name}: this browser cannot read this sound.`); });
@@ -131,7 +135,7 @@ const STOPPED = "Nothing was saved: it was stopped.";
 export async function save(kind = at("kind").value) {
   const [width, height] = size(), { made, frame } = live;
   const { first, count } = kind === "png" ? { first: frame, count: 1 } : made;
-  const sound = kind === "webm" ? await soundOf(made) : null;
+  const sound = VIDEOS.includes(kind) ? await soundOf(made) : null;
   if (wasStopped) throw new Error(STOPPED);
   return now().save({ kind, width, height, sound, first, count },
     share => { at("progress").value = share; });

@@ -1,7 +1,7 @@
 // What the worker of live/ does for the playground alone. Each call gets a question, and { engine,
 // build, progress }: build(question) runs its script, and builds its frame.
 import { planes, png } from "./export.js";
-import { movie } from "./movie.js";
+import { KINDS, movie } from "./movie.js";
 
 export const calls = {
   about(question, { engine, build }) {
@@ -28,17 +28,17 @@ export const calls = {
   /** A file of `count` frames from `first` on. sound: two channels, or null. */
   async save({ kind, first, count, width, height, sound, ...question }, all) {
     const { build, engine, progress } = all;
-    const { fps } = build({ ...question, frame: first }), isVideo = kind === "webm";
+    const { fps } = build({ ...question, frame: first }), video = KINDS[kind];
     let share = 0;
     const beat = () => progress(share);
     const frame = index => {
       build({ ...question, frame: first + index });
       share = (index + 1) / count;
       beat();
-      const rgba = engine.pixels(width, height, undefined, isVideo);
-      return isVideo ? planes(rgba, width, height) : rgba;
+      const rgba = engine.pixels(width, height, undefined, Boolean(video));
+      return video ? planes(rgba, width, height) : rgba;
     };
     const film = { width, height, fps, count, frame, beat };
-    return new Blob(await (isVideo ? movie(film, sound) : png(film)));
+    return new Blob(await (video ? movie(film, sound, video) : png(film)));
   },
 };

@@ -1,10 +1,8 @@
 // WebM: elements of an identifier, a size and contents (RFC 8794, RFC 9559).
 //
 //   EBML   Segment [ Info   Tracks   Cues: where clusters begin   Cluster [ time, blocks ] ... ]
-import { RATE, be } from "./export.js";
+import { RATE, be, size, text } from "./export.js";
 
-const size = parts => parts.reduce((sum, part) => sum + part.length, 0);
-const text = words => new TextEncoder().encode(words);
 const float = number => {
   const bytes = new Uint8Array(8);
   new DataView(bytes.buffer).setFloat64(0, number);
