@@ -99,7 +99,9 @@ async function update() {
   if (film === known) return;
   known = film;
   const before = JSON.stringify(facts.parameters);
-  facts = await now().about({ frame: live.frame }).catch(() => facts);
+  const about = await now().about({ frame: live.frame }).catch(() => null);
+  if (!about) return;
+  facts = about;
   at("printed").textContent = facts.printed;
   live.set = Object.fromEntries(Object.entries(live.set).filter(([given]) =>
     facts.parameters.some(({ name }) => name === given)));
