@@ -8,6 +8,9 @@
 --   background   a colour behind a frame that is transparent
 --   size     in pixels; of a frame, or what the contact sheet is made smaller to
 --   quality  of a loop, 50 by default
+--   fps      of a loop, 12 by default
+--   most     bytes that a loop may have, 150,000 by default
+--   off      codes by which a loop may differ from what made it, 14 by default (see off.py)
 --   set      a parameter and its value
 --   allow    a folder that the script may read, in addition to its own
 --   before   the page and name of an example that is run first, a program in plain Lua
@@ -16,6 +19,8 @@ local SOUNDS, PLATES = { "docs/guide-film.md", "sounds" }, { "docs/cookbook.md",
 
 local list = {
   { name = "demo", script = "scripts/demo.lua", frame = 193, size = "800x450" },
+  { name = "moving", script = "docs/pictures/moving.lua", loop = "all", size = "960x540",
+    fps = "24", most = 2200000 },
   { name = "little-one", script = "scripts/film.lua", frame = 463, size = "400x225" },
   { name = "moon", page = "README.md", frame = 40 },
   { name = "dot", page = "docs/first-hour.md", loop = "all", size = "480x270" },
@@ -28,7 +33,7 @@ local list = {
   { name = "beta", page = "docs/guide-picture.md" },
   { name = "blending", page = "docs/guide.md" },
   { name = "walking", script = "scripts/walking.lua", frame = 10, size = "640x396" },
-  { name = "fox", script = "scripts/fox.lua", frame = 26, size = "480x270" },
+  { name = "fox", script = "scripts/fox.lua", frame = 14, size = "480x270" },
   { name = "turn", script = "scripts/turn.lua", grid = "4x2", size = "880x293" },
   { name = "sea", script = "scripts/sea.lua", frame = 60, size = "560x315" },
   { name = "waving", script = "scripts/waving.lua", frame = 14, size = "640x400" },
@@ -71,6 +76,7 @@ local list = {
   { name = "pencil_paint", page = "docs/from-pencil.md" },
   { name = "pencil_night", script = "scripts/pencil.lua", frame = 62, size = "480x270",
     set = "time=night" },
+  { name = "pencil_leap", script = "scripts/pencil.lua", frame = 37, size = "480x270" },
   { name = "pencil", script = "scripts/pencil.lua", loop = "all", size = "256x144",
     quality = "20" },
   { name = "night", page = "docs/guide-shot.md", frame = 40, size = "480x270" },
@@ -116,22 +122,24 @@ for _, recipe in ipairs {
   { "kaleidoscope", 1, "360x202" }, { "lower_third", "all" }, { "karaoke_line", "all" },
   { "three_languages", "all" }, { "text_on_path", "all" }, { "speech_bubble", "all" },
   { "falling_letters", "all" }, { "typewriter", "all" }, { "srt_subtitles", "73-144" },
-  { "handwriting", "all" }, { "bar_race", "all" }, { "line_chart", "all" },
+  { "handwriting", "all" }, { "bar_race", "all" }, { "line_chart", "all", "480x270" },
   { "rolling_counter", "1-48" }, { "island_map", "all" }, { "value_map", "1-72" },
-  { "many_scripts", "all" }, { "paper_texture", 1, "320x180" }, { "hatching", 1, "360x202" },
+  { "many_scripts", "all", off = 24 }, { "paper_texture", 1, "320x180" },
+  { "hatching", 1, "360x202" },
   { "halftone_dots", 1, "360x202" }, { "three_depths", "all" },
   { "snowfall", "all" }, { "clouds", 30, "320x180" },
   { "water_reflection", "all" }, { "heat_haze", "1-48" }, { "squash_stretch", "all" },
   { "magnifying_lens", "all" }, { "colour_fringes", 1, "320x180" }, { "old_film", "1-36" },
-  { "morph_shapes", "all" }, { "confetti_burst", "1-42", "320x180" },
+  { "morph_shapes", "all" }, { "confetti_burst", "1-42", "320x180", off = 24 },
   { "camera_shake", "24-60", "320x180" }, { "race_car", "1-48" },
   { "sprite_sheet", 1, "360x202" }, { "transparent_video", "1-48", background = "#21465a" },
   { "crossfade", "12-48" }, { "rotoscope", "all" }, { "speed_ramp", "all" },
-  { "mixed_sound", "49-96" }, { "dancing_city", "97-144", before = SOUNDS },
+  { "mixed_sound", "49-96", off = 24 }, { "dancing_city", "97-144", before = SOUNDS, off = 24 },
   { "over_footage", "all", before = PLATES }, { "light_rays", "1-48" },
-  { "glitch_title", "1-48" }, { "logo_reveal", "all" }, { "film_leader", "1-48", "320x180" },
+  { "glitch_title", "1-48", off = 24 }, { "logo_reveal", "all" },
+  { "film_leader", "1-48", "320x180" },
   { "every_shape", "all" }, { "scarf_walk", "all" }, { "harvest_charts", "all" },
-  { "deep_title", "1-60" }, { "cel_shading", "1-48" },
+  { "deep_title", "1-60", "480x270", quality = "45" }, { "cel_shading", "1-48" },
   { "boiling_lines", "all" }, { "paint_on_twos", "all" }, { "smear_frame", "all" },
   { "day_and_night", "all" },
 } do
@@ -139,7 +147,7 @@ for _, recipe in ipairs {
   local loop = type(frames) == "string" and frames or nil
   list[#list + 1] = { name = recipe[1], page = "docs/cookbook.md", frame = not loop and frames,
     loop = loop, size = size or loop and "360x202", background = recipe.background,
-    before = recipe.before }
+    before = recipe.before, quality = recipe.quality, off = recipe.off }
 end
 
 return list

@@ -1,16 +1,18 @@
 -- Makes the pictures of the documentation, or those with the names: lua5.4 docs/pictures/make.lua
--- BINARY FOLDER [NAME...], from the top of the tree. Examples in pages are saved in
+-- BINARY FOLDER [--exact] [NAME...], from the top of the tree. Examples in pages are saved in
 -- FOLDER/examples/, and the frames from which pictures are composed in FOLDER/parts/.
+--   --exact   loops without loss, as NAME.mkv, for comparison
 package.path = "./?.lua;" .. package.path
 local markdown = require "tests.support.markdown"
 local list = require "docs.pictures.list"
 
 local binary, folder = ...
-assert(binary and folder, "usage: lua5.4 docs/pictures/make.lua BINARY FOLDER [NAME...]")
+assert(binary and folder, "usage: lua5.4 docs/pictures/make.lua BINARY FOLDER [--exact] [NAME...]")
 local names = { select(3, ...) }
+local is_exact = names[1] == "--exact" and table.remove(names, 1) ~= nil
 local is_wanted = {}
 for _, name in ipairs(names) do is_wanted[name] = true end
-local program = ("'%s'"):format(binary)
+local program = ("CELSPAN_PATH='scripts/?.lua' '%s'"):format(binary)
 
 local function run(command, ...)
   local words = {}
@@ -36,7 +38,12 @@ end
 local function render(script, picture, output, argument, options)
   local arguments = { script, "--progress", "none", "-o", output }
   local function add(...) table.move({ ... }, 1, select("#", ...), #arguments + 1, arguments) end
-  if picture.loop then add("--fps", "12", "--quality", picture.quality or "50", "--no-dither") end
+  if picture.loop then add("--fps", picture.fps or "12", "--no-dither") end
+  if picture.loop and is_exact then
+    add("--codec", "ffv1")
+  elseif picture.loop then
+    add("--quality", picture.quality or "50")
+  end
   local frames = picture.loop or picture.frame or 1
   if frames ~= "all" then add("--frames", tostring(frames)) end
   if picture.size then add("--size", picture.size) end
@@ -67,7 +74,8 @@ local function make(picture)
     run(("modules=$(realpath \"$(dirname '%s')\") && cd %s/examples && "
       .. "LUA_CPATH=\"$modules/?.so\" lua5.4"):format(binary, folder), before:match "[^/]+$")
   end
-  local output = ("%s/%s.%s"):format(folder, picture.name, picture.loop and "webp" or "png")
+  local ending = not picture.loop and "png" or is_exact and "mkv" or "webp"
+  local output = ("%s/%s.%s"):format(folder, picture.name, ending)
   if picture.strip then
     local _, commas = picture.strip:gsub(",", "")
     run(program .. " contact", script, "--grid", commas + 1 .. "x1", "--frames", picture.strip,

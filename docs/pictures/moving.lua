@@ -1,23 +1,16 @@
--- The moving picture of the front page: frames of Little One, from the folder of film.####.png in
--- the argument. The last ones dissolve into the first ones, so that it loops without a jump.
+-- The moving picture of the first page: the close shot of Little One, from the words of the
+-- lamplighter to his laugh. A circle closes on the lamp, and the dark rests before it begins again.
+local close = require "film.shots.close"
 
-local folder = ...
-local FIRST, STEP, COUNT = 397, 2, 96 -- frames of the film that were rendered
-local DISSOLVE = 8
+local SIZE, FROM = { 1920, 1080 }, 14.3 -- FROM: in seconds of the film
+local radius = keys { { 5.1, 1700 }, { 5.44, 270, "inOutCubic" }, { 5.66, 250, "inOutSine" },
+                      { 5.87, 0, "inCubic" } }
+local dark = rect { 0, 0, SIZE[1], SIZE[2], fill = "#0a0c20" }
 
-local function exposure(index, weight)
-  local name = ("%s/film.%04d.png"):format(folder, FIRST + STEP * index)
-  local picture = image { file = name, w = 640, h = 360 }
-  return { rostrum { cel { picture } }, weight }
-end
+local shot = film { size = SIZE, fps = 24, duration = 6,
+  frame = function(f) return close.draw(FROM + f.time) end }
 
-return film {
-  title = "Little One, round and round", size = { 640, 360 }, fps = 12, frames = COUNT - DISSOLVE,
-  frame = function(f)
-    local index = f.index + DISSOLVE -- the first ones are seen at the end
-    local left = COUNT - index
-    if left > DISSOLVE then return { exposure(index, 1) } end
-    local share = left / (DISSOLVE + 1)
-    return { exposure(index, share), exposure(DISSOLVE - left, 1 - share) }
-  end,
-}
+return cut { title = "Little One, round and round", shot, over = function(f)
+  local open = radius:at(f.time)
+  return cel { open > 0 and dark - circle { 1500, 400, open } or dark }
+end }

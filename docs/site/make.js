@@ -18,12 +18,13 @@ const { escape, way, whole } = require("./layout.js");
 
 const LANGUAGES = { lua: "lua", sh: "bash", c: "c", h: "c", json: "json", python: "python",
   py: "python", html: "html", js: "javascript", meson: "meson" };
-const AS_IS = ["llms.txt"]; // for programs, which expect it at this address
+const AS_IS = ["llms.txt", "docs/pictures/little-one.mp4"]; // what links lead to is no page
 
 const [folder, web] = process.argv.slice(2);
 const hasEngine = web && fs.existsSync(`${web}/celspan.wasm`);
 const pages = new Map(); // the page of each file of the tree that is one
 const files = new Set(); // of the site, that are copied as they are
+const stills = new Map(); // the moving picture of each still one
 const examples = []; // scripts of the cookbook for the playground
 const md = markdown();
 
@@ -92,8 +93,23 @@ function showPicture(page, token, about) {
   const { width, height } = sizeOf(file);
   files.add(file);
   const address = way(page.address, `pictures/${posix.basename(file)}`);
-  return `<img src="${address}" alt="${escape(about ?? token.content)}" width="${width}" height="${
-    height}" loading="lazy" decoding="async">`;
+  const shown = `<img src="${address}" alt="${escape(about ?? token.content)}" width="${width
+  }" height="${height}" loading="lazy" decoding="async">`;
+  if (!file.endsWith(".webp")) return shown;
+  const still = `pictures/still/${posix.basename(file)}`;
+  stills.set(still, file);
+  return `<picture><source media="(prefers-reduced-motion: reduce)" srcset="${
+    way(page.address, still)}">${shown}</picture>`;
+}
+
+/** The first frame of a moving WebP as a file: for those who want no motion. */
+function stillOf(file) {
+  const bytes = fs.readFileSync(file), at = bytes.indexOf("ANMF");
+  const head = Buffer.from(bytes.subarray(0, 30)); // RIFF and VP8X
+  const frame = bytes.subarray(at + 24, at + 8 + bytes.readUInt32LE(at + 4));
+  head[20] &= 0x10; // its only feature is alpha
+  head.writeUInt32LE(head.length + frame.length - 8, 4);
+  return Buffer.concat([head, frame]);
 }
 
 /** Whether a table without a head is of pictures above their captions. */
@@ -305,6 +321,7 @@ function make() {
   for (const file of files) {
     write(AS_IS.includes(file) ? file : `pictures/${posix.basename(file)}`, fs.readFileSync(file));
   }
+  for (const [still, file] of stills) write(still, stillOf(file));
   for (const name of ["site.css", "site.js"]) {
     write(name, fs.readFileSync(path.join(__dirname, name)));
   }

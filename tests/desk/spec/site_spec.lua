@@ -147,12 +147,28 @@ describe("the site #plain", function()
         assert.is_truthy(figure, block.name)
         assert.is_truthy(figure:find(block.name .. ".lua</b>", 1, true))
         shown = shown + 1
-        if figure:find('<div class="stage"><img src="pictures/' .. block.name, 1, true) then
+        if figure:find('<div class="stage">[^\n]*<img src="pictures/' .. block.name) then
           with_stage = with_stage + 1
         end
       end
     end
     assert.is_true(shown > 60 and with_stage == shown, with_stage .. " of " .. shown)
+  end)
+
+  it("shows no motion to those who want none: the first frame of each moving picture", function()
+    local count = 0
+    for _, text in pairs(pages) do
+      for still in text:gmatch 'reduced%-motion: reduce%)" srcset="([^"]*)"' do
+        count = count + 1
+        local bytes = bench:read("site/" .. still)
+        local whole, flags = string.unpack("<I4", bytes, 5), bytes:byte(21)
+        assert.equal(#bytes, whole + 8, still)
+        assert.equal(0, flags & ~0x10, still)
+        assert.is_truthy(bytes:find "^RIFF....WEBPVP8X.-VP8[ L]")
+        assert.is_falsy(bytes:find("ANMF", 1, true), still)
+      end
+    end
+    assert.is_true(count > 60, count)
   end)
 
   it("has small scripts and styles", function()
