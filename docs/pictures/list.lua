@@ -76,7 +76,7 @@ local list = {
   { name = "pencil_paint", page = "docs/from-pencil.md" },
   { name = "pencil_night", script = "scripts/pencil.lua", frame = 62, size = "480x270",
     set = "time=night" },
-  { name = "pencil_leap", script = "scripts/pencil.lua", frame = 37, size = "480x270" },
+  { name = "pencil_leap", script = "docs/pictures/pencil_leap.lua", frame = 37, size = "480x270" },
   { name = "pencil", script = "scripts/pencil.lua", loop = "all", size = "256x144",
     quality = "20" },
   { name = "night", page = "docs/guide-shot.md", frame = 40, size = "480x270" },
