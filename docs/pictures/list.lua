@@ -139,7 +139,7 @@ for _, recipe in ipairs {
   { "glitch_title", "1-48", off = 24 }, { "logo_reveal", "all" },
   { "film_leader", "1-48", "320x180" },
   { "every_shape", "all" }, { "scarf_walk", "all" }, { "harvest_charts", "all" },
-  { "deep_title", "1-60", "480x270", quality = "45" }, { "cel_shading", "1-48" },
+  { "deep_title", "all", "480x270", quality = "40", most = 250000 }, { "cel_shading", "1-48" },
   { "boiling_lines", "all" }, { "paint_on_twos", "all" }, { "smear_frame", "all" },
   { "day_and_night", "all" },
 } do
@@ -147,7 +147,8 @@ for _, recipe in ipairs {
   local loop = type(frames) == "string" and frames or nil
   list[#list + 1] = { name = recipe[1], page = "docs/cookbook.md", frame = not loop and frames,
     loop = loop, size = size or loop and "360x202", background = recipe.background,
-    before = recipe.before, quality = recipe.quality, off = recipe.off }
+    before = recipe.before, quality = recipe.quality, off = recipe.off,
+    most = recipe.most }
 end
 
 return list
