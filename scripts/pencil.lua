@@ -1,5 +1,5 @@
--- From pencil to screen: a frog has a plan, in a cut of 108 frames from scans of pencil drawings.
--- A script drew the scans; `--set time=night` has the colours of the night.
+-- From pencil to screen: a frog has a plan, in a cut of 108 frames from pencil drawings and scans
+-- of them that a script made. `--set time=night` has the colours of the night.
 local ink, sheet = require "celspan.ink", require "celspan.sheet"
 local trace = require "celspan.trace"
 local palettes, eyes = require "pencil.palettes", require "pencil.eyes"

@@ -1,6 +1,6 @@
--- From noon to dusk: the light is removed from a picture, and the rest is relit through the day.
--- The picture is drawn by a script, as a photograph would be taken at noon. A photograph of yours,
--- and its light, may be given after --:
+-- From noon to dusk: the light is removed from a picture, which a script drew in place of a
+-- photograph, and the rest is relit through the day. A photograph of yours, and its light, may be
+-- given after --:
 --   celspan render scripts/relight.lua -o dusk.mp4 -- photo.jpg "#fff4e0"
 local photo = require "relight.photo"
 local relight = require "celspan.relight"

@@ -1,6 +1,5 @@
--- Trace: a picture of an ink drawing becomes shapes. Each is coloured by a point inside it, the
--- tail moves by itself, and the fish swims, sharp at every size. A script drew the picture as a
--- scanner would see the drawing.
+-- Trace: a picture, which a script drew in place of a scanned ink drawing, becomes shapes. Each is
+-- coloured by a point inside it, the tail moves by itself, and the fish swims, sharp at every size.
 local trace = require "celspan.trace"
 
 local fish = assert(trace.picture("pictures/scan.png", { speckle = 30 }))

@@ -41,7 +41,7 @@ io.write [[
 For people who look for an idea: the films of this repository, each with its script to take apart.
 `celspan play scripts/demo.lua` shows one, and `celspan render scripts/demo.lua -o demo.mp4` makes a
 video of it. [The cookbook](cookbook.md) has shorter scripts, one for each task. [`celspan
-watch`](watch.md) shows a film again each time its script is saved, here a small film of five shots:
+watch`](watch.md) shows a film again each time its script is saved, here the first film as a cut:
 
 ![the page of celspan watch](pictures/watch.png)
 ]]

@@ -1,8 +1,11 @@
--- The frames of scripts/kernels.lua side by side, four times as large, each with its kernel; first
--- the art itself. An argument names the folder with the frames, kernels.N.png, and kernels.art.png.
+-- The frames of scripts/kernels.lua side by side, four times as large, each with its kernel and its
+-- name; first the art itself. An argument names the folder with the frames, kernels.N.png, and
+-- kernels.art.png.
+
+local label = require "stage.label"
 
 local folder = ...
-local WIDTH, HEIGHT, GAP = 384, 160, 16
+local WIDTH, HEIGHT, GAP, LINE = 384, 160, 16, 24
 
 local function sinc(x) return x == 0 and 1 or math.sin(math.pi * x) / (math.pi * x) end
 
@@ -36,23 +39,26 @@ local function profile(kernel)
   return polygon(outline) | rect { -38, -0.75, 76, 1.5, fill = "#1f2a44" }
 end
 
-local function panel(name)
-  local picture = image { file = folder .. "/kernels." .. name .. ".png", w = WIDTH,
-    h = HEIGHT,
-                          sampling = "nearest" }
+local NAMES = { "none: a point", "area: a box of one pixel", "box, radius 1", "gaussian",
+  "mitchell", "lanczos", "a tent of one's own" }
+
+local function panel(name, words)
+  local picture = image { file = folder .. "/kernels." .. name .. ".png", w = WIDTH, h = HEIGHT,
+    sampling = "nearest" }
   return clip(picture, rect { 0, 0, WIDTH, HEIGHT, radius = 12 })
+    | label(words, WIDTH / 2, HEIGHT + 24, "#f6ebd3", 19)
 end
 
-local panels = { panel "art" }
+local panels = { panel("art", "the art") }
 for i, kernel in ipairs(KERNELS) do
-  panels[i + 1] = panel(i) | profile(kernel):translate(WIDTH - 50, HEIGHT - 20)
+  panels[i + 1] = panel(i, NAMES[i]) | profile(kernel):translate(WIDTH - 50, HEIGHT - 20)
 end
 for i, object in ipairs(panels) do
   local column, row = (i - 1) % 2, (i - 1) // 2
-  panels[i] = object:translate(GAP + column * (WIDTH + GAP), GAP + row * (HEIGHT + GAP))
+  panels[i] = object:translate(GAP + column * (WIDTH + GAP), GAP + row * (HEIGHT + GAP + LINE))
 end
 
 return film {
-  size = { 2 * WIDTH + 3 * GAP, 4 * HEIGHT + 5 * GAP }, frames = 1,
+  size = { 2 * WIDTH + 3 * GAP, 4 * (HEIGHT + LINE) + 5 * GAP }, frames = 1,
   frame = function() return { cel(panels), back = "#1f2a44" } end,
 }

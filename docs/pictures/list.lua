@@ -40,7 +40,7 @@ local list = {
   { name = "shapes", page = "docs/guide-picture.md", size = "640x360" },
   { name = "gel", page = "docs/guide-picture.md" },
   { name = "dusk", page = "docs/guide.md", strip = "1,26,48" },
-  { name = "lamplight", page = "docs/guide.md", frame = 18, size = "480x270" },
+  { name = "lamplight", page = "docs/guide.md", frame = 22, size = "640x360" },
   { name = "postcards", page = "docs/guide-picture.md", frame = 1 },
   { name = "soft", page = "docs/guide.md", frame = 6, size = "480x270" },
   { name = "stickers", page = "docs/guide-picture.md" },
@@ -108,7 +108,7 @@ local list = {
     allow = "scripts" },
   { name = "paper-15d", script = "scripts/paper/figure15d.lua", size = "400x300",
     allow = "scripts" },
-  { name = "kernels", script = "docs/pictures/kernels.lua", parts = {
+  { name = "kernels", script = "docs/pictures/kernels.lua", allow = "scripts", parts = {
     { script = "scripts/kernels.lua", frame = 2, size = "384x160", file = "kernels.art.png" },
     { script = "scripts/kernels.lua", frame = "all", file = "kernels.#.png" } } },
 }
@@ -120,7 +120,8 @@ for _, recipe in ipairs {
   { "clock_wipe", "all" }, { "iris_out", "all" }, { "endless_zoom", "all" },
   { "split_screen", "all" }, { "green_screen", "all" }, { "picture_in_picture", "1-48" },
   { "kaleidoscope", 1, "360x202" }, { "lower_third", "all" }, { "karaoke_line", "all" },
-  { "three_languages", "all" }, { "text_on_path", "all" }, { "speech_bubble", "all" },
+  { "three_languages", "all" }, { "text_on_path", "all", "320x180", quality = "35" },
+  { "speech_bubble", "all" },
   { "falling_letters", "all" }, { "typewriter", "all" }, { "srt_subtitles", "73-144" },
   { "handwriting", "all" }, { "bar_race", "all" }, { "line_chart", "all", "480x270" },
   { "rolling_counter", "1-48" }, { "island_map", "all" }, { "value_map", "1-72" },

@@ -1,23 +1,32 @@
-// The steps of watch.sh: a dark window with the rows of a shot, the values, and the form of a render.
+// The steps of watch.sh: a dark window of double density with the inspector on the cat, the values
+// and the onion skin, and the form of a render.
 await page.call("Emulation.setDeviceMetricsOverride",
-  { width: 1280, height: 800, deviceScaleFactor: 1, mobile: false });
-const isSettled = `document.querySelector("#canvas").dataset.frame === "60"
+  { width: 1120, height: 720, deviceScaleFactor: 2, mobile: false });
+const isSettled = `document.querySelector("#canvas").dataset.frame === "69"
   && !("stale" in document.querySelector("#canvas").dataset)
   && document.querySelector("#timeline").ariaBusy === "false"`;
 const shot = async name => {
   await page.until(isSettled);
-  await page.pause(2);
+  await page.pause(3);
   await page.shot(`${process.env.SHOTS}/${name}.png`);
+};
+const press = async keys => {
+  for (const key of keys) {
+    await page.press(key);
+    await page.pause(1);
+  }
 };
 const isDark = await page.get(`document.documentElement.dataset.theme === "dark"`);
 if (!isDark) await page.press("t");
-for (const key of ["g", "6", "0", "Enter", "s", "q"]) {
-  await page.press(key);
-  await page.pause(1);
-}
+await press(["g", "6", "9", "Enter", "s", "p"]);
+await page.until(isSettled);
+const box = await page.get(`(r => [r.x, r.y, r.width, r.height])(
+  document.querySelector("#canvas").getBoundingClientRect())`);
+await page.click(box[0] + 0.362 * box[2], box[1] + 0.37 * box[3]);
 await shot("watch");
-for (const key of ["s", "v"]) await page.press(key);
+await page.get(`document.querySelector('[aria-label="Onion: leap/cat"]').click(), 1`);
+await press(["s", "v"]);
 await shot("watch_values");
-await page.press("v");
+await press(["n", "n", "n", "v"]);
 await page.get(`document.querySelector("#render").click()`);
 await shot("watch_render");

@@ -1,4 +1,4 @@
--- Makes scan.png: an ink drawing as from a scanner, on paper that is not quite white.
+-- Makes scan.png in place of a scan: an ink drawing on paper that is not quite white.
 --
 --   LUA_CPATH=build/?.so lua5.4 scripts/pictures/scan.lua scripts/pictures/scan.png
 
