@@ -17,7 +17,7 @@ CELSPAN_BROWSER_SECONDS=300 SHOTS="$(cd "$1" && pwd)" \
   node tests/support/browser.js "$1/browser" \
   "$(sed 's/watching //' "$1/watch.txt")" docs/pictures/watch.js
 for name in watch watch_values watch_render; do
-  "$celspan" convert "$1/$name.png" docs/pictures/$name.png --size 1456x936
+  "$celspan" convert "$1/$name.png" docs/pictures/$name.png --size 1344x864
 done
-pngquant --force --ext .png 96 docs/pictures/watch.png docs/pictures/watch_values.png \
+pngquant --force --ext .png 80 docs/pictures/watch.png docs/pictures/watch_values.png \
   docs/pictures/watch_render.png
