@@ -11,6 +11,7 @@
 --   fps      of a loop, 12 by default
 --   most     bytes that a loop may have, 150,000 by default
 --   off      codes by which a loop may differ from what made it, 14 by default (see off.py)
+--   still    "webp" for a frame that is larger as a PNG
 --   set      a parameter and its value
 --   allow    a folder that the script may read, in addition to its own
 --   before   the page and name of an example that is run first, a program in plain Lua
@@ -22,6 +23,8 @@ local list = {
   { name = "moving", script = "docs/pictures/moving.lua", loop = "all", size = "960x540",
     fps = "24", most = 2200000 },
   { name = "little-one", script = "scripts/film.lua", frame = 463, size = "400x225" },
+  { name = "works/moon_cat", script = "scripts/works/moon_cat.lua", frame = 97, size = "960x540",
+    still = "webp", allow = "scripts" },
   { name = "moon", page = "README.md", frame = 40 },
   { name = "dot", page = "docs/first-hour.md", loop = "all", size = "480x270" },
   { name = "hop", page = "docs/first-hour.md", loop = "all", size = "480x270" },
@@ -153,6 +156,11 @@ for _, recipe in ipairs {
     loop = loop, size = size or loop and "360x202", background = recipe.background,
     before = recipe.before, quality = recipe.quality, off = recipe.off,
     most = recipe.most }
+end
+
+--- The name of the file of a picture.
+function list.file_of(picture)
+  return ("%s.%s"):format(picture.name, picture.still or picture.loop and "webp" or "png")
 end
 
 return list

@@ -57,7 +57,7 @@ local function render(script, picture, output, argument, options)
 end
 
 local parts = folder .. "/parts"
-run("mkdir -p", folder .. "/examples", parts)
+run("mkdir -p", folder .. "/examples", folder .. "/works", parts)
 run("cp -r scripts/type scripts/paintings scripts/pictures scripts/drawings scripts/stage",
   "scripts/pencil", folder .. "/examples/")
 -- A script gets an absolute path, because it looks for files beside itself, and may read there.
@@ -74,8 +74,8 @@ local function make(picture)
     run(("modules=$(realpath \"$(dirname '%s')\") && cd %s/examples && "
       .. "LUA_CPATH=\"$modules/?.so\" lua5.4"):format(binary, folder), before:match "[^/]+$")
   end
-  local ending = not picture.loop and "png" or is_exact and "mkv" or "webp"
-  local output = ("%s/%s.%s"):format(folder, picture.name, ending)
+  local file = picture.loop and is_exact and picture.name .. ".mkv" or list.file_of(picture)
+  local output = ("%s/%s"):format(folder, file)
   if picture.strip then
     local _, commas = picture.strip:gsub(",", "")
     run(program .. " contact", script, "--grid", commas + 1 .. "x1", "--frames", picture.strip,

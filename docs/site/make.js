@@ -25,6 +25,7 @@ const hasEngine = web && fs.existsSync(`${web}/celspan.wasm`);
 const pages = new Map(); // the page of each file of the tree that is one
 const files = new Set(); // of the site, that are copied as they are
 const stills = new Map(); // the moving picture of each still one
+const films = new Set(); // of out/docs, that are copied too
 const examples = []; // scripts of the cookbook for the playground
 const md = markdown();
 
@@ -84,19 +85,33 @@ function sizeOf(file) {
   if (kind === "VP8X") {
     return { width: bytes.readUIntLE(24, 3) + 1, height: bytes.readUIntLE(27, 3) + 1 };
   }
-  throw new Error(`${file}: neither PNG nor a moving WebP`);
+  if (kind === "VP8 ") {
+    return { width: bytes.readUInt16LE(26) & 0x3fff, height: bytes.readUInt16LE(28) & 0x3fff };
+  }
+  throw new Error(`${file}: neither PNG nor WebP`);
 }
 
-/** A picture with its size, which is copied to pictures/. */
+/** Where a file of docs/ is in the site. */
+const placeOf = file => posix.relative("docs", file);
+
+/** A picture with its size, which is copied to pictures/. It is what a film of the same name in
+ * out/docs, which `./run docs` makes, shows until it plays. */
 function showPicture(page, token, about) {
   const file = posix.join(posix.dirname(page.file), token.attrGet("src"));
   const { width, height } = sizeOf(file);
   files.add(file);
-  const address = way(page.address, `pictures/${posix.basename(file)}`);
+  const address = way(page.address, placeOf(file));
+  const film = file.match(/^docs[/]pictures[/](works[/]\w+)[.]/)?.[1];
+  if (film && fs.existsSync(`out/docs/${film}.mp4`)) {
+    films.add(`${film}.mp4`);
+    return `<video src="${way(page.address, `${film}.mp4`)}" poster="${address}" preload="none" `
+      + `controls loop playsinline aria-label="${escape(token.content)}" width="${width}" `
+      + `height="${height}"></video>`;
+  }
   const shown = `<img src="${address}" alt="${escape(about ?? token.content)}" width="${width
   }" height="${height}" loading="lazy" decoding="async">`;
-  if (!file.endsWith(".webp")) return shown;
-  const still = `pictures/still/${posix.basename(file)}`;
+  if (!file.endsWith(".webp") || !fs.readFileSync(file).includes("ANMF")) return shown;
+  const still = `still/${placeOf(file)}`;
   stills.set(still, file);
   return `<picture><source media="(prefers-reduced-motion: reduce)" srcset="${
     way(page.address, still)}">${shown}</picture>`;
@@ -319,9 +334,10 @@ function make() {
   const coloured = colour();
   for (const page of pages.values()) write(page.address, coloured(whole(page, groups)));
   for (const file of files) {
-    write(AS_IS.includes(file) ? file : `pictures/${posix.basename(file)}`, fs.readFileSync(file));
+    write(AS_IS.includes(file) ? file : placeOf(file), fs.readFileSync(file));
   }
   for (const [still, file] of stills) write(still, stillOf(file));
+  for (const film of films) write(film, fs.readFileSync(`out/docs/${film}`));
   for (const name of ["site.css", "site.js"]) {
     write(name, fs.readFileSync(path.join(__dirname, name)));
   }

@@ -7,15 +7,18 @@ local shipped = {}
 --- Paths of the scripts that make pictures, in order; the others are their modules.
 function shipped.scripts()
   local paths = {}
-  for path in system.output "ls scripts/*.lua scripts/paper/figure*.lua":gmatch "[^\n]+" do
+  local listed = system.output "ls scripts/*.lua scripts/works/*.lua scripts/paper/figure*.lua"
+  for path in listed:gmatch "[^\n]+" do
     paths[#paths + 1] = path
   end
   return paths
 end
 
---- The options that a script needs. Those of the paper's figures read the font and the pictures
---- next to their folder.
-function shipped.options(path) return path:find "/paper/" and " --allow scripts" or "" end
+--- The options that a script needs. Works and the paper's figures read what is next to their
+--- folder.
+function shipped.options(path)
+  return (path:find "/paper/" or path:find "/works/") and " --allow scripts" or ""
+end
 
 --- The text of a script and of the files in the folder of its name.
 local function text_of(path)
