@@ -6,9 +6,10 @@
 ---     axis = { tag = "wght", least = 300, default = 400, most = 900 } } -> bytes
 ---
 --- A glyph is { characters = { 65 }, advance = 600, contours = { { {x, y, is_on}, ... }, ... } },
---- and with an axis `least` and `most`: contours with as many points. The first one represents
---- missing characters. In place of contours a glyph may have components = { { glyph, dx, dy },
---- ... }: other glyphs that have contours, moved. Numbers in components, `kerning` and `ligatures`
+--- and with an axis `least` and `most`: contours with as many points, and, where its width changes,
+--- advances = { least =, most = }. The first one represents missing characters. In place of
+--- contours a glyph may have components = { { glyph, dx, dy }, ... }, and so in `least` and `most`:
+--- other glyphs that have contours, moved. Numbers in components, `kerning` and `ligatures`
 --- are those of glyphs, from 1. Source: OpenType 1.9.
 local truetype = {}
 
@@ -209,14 +210,14 @@ end
 local function i8(n) return string.pack(">i1", n) end
 
 --- Differences in runs of at most 64, as bytes if they fit, otherwise as words. The last four
---- points are those of the metrics.
-local function packed(from, to, place)
-  local values, most = {}, 0
+--- points are those of the metrics; the second of them is the advance, which grows by `wider`.
+local function packed(from, to, place, wider)
+  local values, most = {}, math.abs(wider)
   for i = 1, #from do
     values[i] = to[i][place] - from[i][place]
     most = math.max(most, math.abs(values[i]))
   end
-  for _ = 1, 4 do values[#values + 1] = 0 end
+  table.move({ 0, wider, 0, 0 }, 1, 4, #values + 1, values)
   local parts = {}
   for first = 1, #values, 64 do
     local last = math.min(first + 63, #values)
@@ -226,14 +227,24 @@ local function packed(from, to, place)
   return table.concat(parts)
 end
 
+--- The points of a form of a glyph that change: of a composite, how far its parts are moved.
+local function changing(glyph, form)
+  if not glyph.components then return points_of(glyph[form]) end
+  local offsets = {}
+  for i, part in ipairs(glyph[form] or {}) do offsets[i] = { part[2], part[3] } end
+  return offsets
+end
+
 --- The changes of a glyph towards the least and the greatest value of the axis, for all its points.
 local function gvar_entry(glyph)
-  local from = points_of(glyph.contours or {}) -- the parts of a composite change by themselves
-  if #from == 0 then return "" end
+  local from = changing(glyph, glyph.components and glyph.least and "components" or "contours")
+  if #from == 0 and not glyph.advances then return "" end
   local headers, data = {}, {}
   for i, peak in ipairs { -1, 1 } do
-    local to = points_of(peak < 0 and glyph.least or glyph.most)
-    data[i] = "\0" .. packed(from, to, 1) .. packed(from, to, 2)
+    local form = peak < 0 and "least" or "most"
+    local to, wider = changing(glyph, form), 0
+    if glyph.advances then wider = glyph.advances[form] - glyph.advance end
+    data[i] = "\0" .. packed(from, to, 1, wider) .. packed(from, to, 2, 0)
     headers[i] = u16(#data[i]) .. u16(0xa000) .. i16(peak * 0x4000)
   end
   return padded(u16(2) .. u16(4 + #headers[1] * 2) .. table.concat(headers) .. table.concat(data),

@@ -3,6 +3,7 @@
 -- same few letters are enough for all of them.
 local celspan = require "celspan"
 local block = require "tests.support.block"
+local poster = require "tests.support.poster"
 local present = require "tests.support.present"
 local truetype = require "tests.support.truetype"
 local system = require "tests.support.system"
@@ -10,6 +11,7 @@ local workbench = require "tests.support.workbench"
 
 local FONT = "../../../scripts/type/block.ttf"
 local PATH = "scripts/type/block.ttf"
+local POSTER = "scripts/type/poster.ttf"
 
 -- Built without the libraries for type, there is nothing to test except the font.
 local it = present.type() and it or pending
@@ -72,6 +74,19 @@ teardown(function() for _, path in ipairs(made) do os.remove(path) end end)
 describe("the font that ships", function()
   it("is what its program makes", function()
     assert.is_true(truetype.build(block.font()) == read(PATH))
+    assert.is_true(truetype.build(poster.font()) == read(POSTER))
+  end)
+
+  it("has a display font beside it, whose letters and accents become broader", function()
+    local function width(words, wdth)
+      local line = celspan.text { words, font = "../../../" .. POSTER, size = 1000,
+        variations = { wdth = wdth } }
+      local _, _, inked = line:bounds()
+      return { line:metrics().width, inked }
+    end
+    assert.are.same({ 336, 276 }, width("H", 70))
+    assert.are.same({ 1020, 960 }, width("H", 225))
+    assert.are.same(width("H", 225)[1], width("É", 225)[1] + 143)
   end)
 end)
 
