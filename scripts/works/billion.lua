@@ -90,7 +90,8 @@ end
 --- The headline: a question, and then what is found.
 local function headline(art, time)
   local lines = { { "How long is a life?", -0.4, BILLION - 0.2 },
-    { "About a billion beats.", BILLION + 0.6, YOURS }, { "You get nearly three.", YOURS + 0.4, 99 } }
+    { "About a billion beats.", BILLION + 0.6, YOURS },
+    { "You get nearly three.", YOURS + 0.4, 99 } }
   for _, one in ipairs(lines) do
     local comes = motion.span(time, one[2], 0.5, "outCubic")
     local goes = motion.span(time, one[3], 0.2, "inCubic")

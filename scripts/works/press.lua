@@ -66,7 +66,7 @@ local squash = keys { { 4.78, 1 }, { 4.83, 0.45, "outQuad" }, { 4.96, 0.42 },
   { 6.9, 1.5, "outCubic" }, { 7.15, 0.8, "inOutSine" }, { 7.4, 1.1, "inOutSine" },
   { 7.6, 1, "inOutSine" } }
 
---- The belt goes in steps, and waits while the press is down; for the stubborn ball it waits longer.
+--- The belt goes in steps, and waits while the press is down; longest for the stubborn ball.
 local belt = keys { { 0, 0 }, { 0.55, 1, "inOutCubic" }, { 1.45, 1 }, { 2.45, 2, "inOutCubic" },
   { 3.45, 2 }, { 4.45, 3, "inOutCubic" }, { 7.4, 3 }, { 8.6, 4, "inOutCubic" } }
 
@@ -111,10 +111,10 @@ end
 local steel = { SEA, TEAL, DEEP }
 
 local function conveyor(time)
-  local moved = belt:at(time) * STEP % 46
+  local gone = belt:at(time) * STEP % 46
   local parts = { box(-1300, 0, -70, 2600, 120, 64, { PLUM, ROSE, PLUM }) }
   for i = -28, 28 do
-    local x = i * 46 + moved
+    local x = i * 46 + gone
     parts[#parts + 1] = face({ { x, 0, -6 }, { x + 38, 0, -6 }, { x + 38, 120, -6 },
       { x, 120, -6 } }, CREAM)
   end
@@ -148,7 +148,8 @@ local function face_of(time)
   for i, x in ipairs { -36, 36 } do
     local px, py = at(x, -6, 352)
     parts[#parts + 1] = circle { px, py, 24 + 7 * amazed, fill = CREAM }
-    parts[#parts + 1] = circle { px + look * 0.5, py + 9 - 4 * amazed + 0.25 * look, 11 - 4 * amazed, fill = PLUM }
+    parts[#parts + 1] = circle { px + look * 0.5, py + 9 - 4 * amazed + 0.25 * look,
+      11 - 4 * amazed, fill = PLUM }
     local frown = motion.span(time, 5.2, 0.3) - amazed
     if frown > 0 then
       parts[#parts + 1] = rect { px - 34, py - 44, 68, 22, fill = SEA }
