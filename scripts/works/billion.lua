@@ -146,6 +146,8 @@ local function frame(f)
       total(art, life, i, x, y, h, time)
     end
   end
+  art[#art + 1] = line("Billions of heartbeats in a life, at rest", LEFT, FLOOR + 46, 32, INK)
+    :fade(motion.span(time, BILLION + 0.6, 0.3))
   headline(art, time)
   return cel(art)
 end

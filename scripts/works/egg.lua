@@ -29,7 +29,7 @@ end
 
 --- A zigzag from x0 to x1 at y; what is below it, down to `low`, or above it.
 local function jagged(x0, x1, y, to)
-  local points, teeth = { { x0, to } }, 8
+  local points, teeth = { { x0, to } }, 12
   for i = 0, teeth do
     points[#points + 1] = { x0 + (x1 - x0) * i / teeth, y + (i % 2 == 0 and -26 or 26) }
   end
@@ -61,7 +61,7 @@ end
 local cup = path { fill = "#17352a", d = "M-330 60 H330 C320 300 190 380 70 400 L60 560 "
   .. "C160 580 220 600 240 650 H-240 C-220 600 -160 580 -60 560 L-70 400 "
   .. "C-190 380 -320 300 -330 60 Z" }
-cup = cup | clip(rect { -400, 160, 800, 66, fill = "#f7b2a4" }, cup)
+cup = (cup | clip(rect { -400, 160, 800, 66, fill = "#f7b2a4" }, cup)):scale(1.07, 1)
 local spoon = ellipse { 0, 0, 70, 100, fill = "#f7b2a4" }
   | rect { -17, 80, 34, 560, radius = 17, fill = "#f7b2a4" }
 local toast = rect { -62, -560, 124, 560, radius = 30, fill = "#a8602c" }
@@ -166,8 +166,8 @@ local function free(time)
     art = { whole }
   elseif up == 0 then
     art = { whole, stroke { width = 12, join = "round", fill = cards[3].ink,
-      points = { { -340, line - 26 }, { -255, line + 30 }, { -170, line - 30 }, { -85, line + 30 },
-        { 0, line - 30 }, { 85, line + 30 } }, to = motion.span(time, 1.7, 0.3) } }
+      points = { { -350, line }, { -300, line + 26 }, { -200, line - 26 }, { -100, line + 26 },
+        { 0, line - 26 }, { 100, line + 26 } }, to = motion.span(time, 1.7, 0.3) } }
   else
     local tilt = 7 * math.sin(3 * (time - 2.15))
     local head = chick(time):translate(0, 60 - 150 * up)

@@ -2,7 +2,7 @@
 -- circles again. Every tile makes four quarter turns, each a little later than its neighbour
 -- nearer the middle, so the last frame leads into the first one without a seam.
 
-local SIZE, COUNT, SECONDS = 1080, 8, 6
+local SIZE, COUNT = 1080, 8
 local TILE = 116
 local MARGIN = (SIZE - COUNT * TILE) / 2
 local PAPER = "#f4e8d3"
@@ -42,8 +42,8 @@ local function art_of(column, row)
 end
 
 --- The quarter turns that a tile has made: four in the whole film, with rests between them.
-local function turns(time, late)
-  local u = (time / SECONDS * 4 - late) % 4
+local function turns(share, late)
+  local u = (4 * share - late) % 4
   local whole = u // 1
   return whole + ease "inOutBack"(math.min(1, (u - whole) / 0.7))
 end
@@ -64,10 +64,10 @@ for row = 0, COUNT - 1 do
 end
 
 local function frame(f)
-  local time = f.index / f.fps
+  local share = f.index / f.count -- of the loop: after the last frame it would be 1, which is 0
   local shown = { rect { 0, 0, SIZE, SIZE, fill = PAPER } }
   for _, tile in ipairs(tiles) do
-    local u = turns(time, tile.late)
+    local u = turns(share, tile.late)
     local lifted = 1 - 0.16 * math.sin(math.pi * (u % 1)) ^ 2
     shown[#shown + 1] = tile.art:rotate(tile.start + tile.way * 90 * u):scale(lifted)
       :translate(tile.x, tile.y)
@@ -75,5 +75,5 @@ local function frame(f)
   return cel(shown)
 end
 
-return film { title = "Quarter turns", size = { SIZE, SIZE }, fps = 24, duration = SECONDS,
+return film { title = "Quarter turns", size = { SIZE, SIZE }, fps = 24, duration = 6,
   frame = frame }

@@ -25,12 +25,12 @@ end
 -- The rows: what each wants of the height, and its letters, with what they want of the width.
 -- "ROOM" takes a breath at 9, is pushed back at 10, and takes all at 11.
 local rows = {
-  { height = { at(0, 1, 0.01), at(12, 0.42, 1) },
+  { height = { at(-1, 1), at(12, 0.42, 1) },
     { "T", at(-1, 1) }, { "H", at(0.5, 1) }, { "E", at(1, 1) }, { "R", at(1.5, 1) },
     { "E", at(2, 1) } },
-  { height = { at(0, 0, 0.01), at(3, 1), at(12, 0.42, 1) },
+  { height = { at(3, 1), at(12, 0.42, 1) },
     { "I", at(3.5, 0.2) }, { "S", at(3, 1) } },
-  { height = { at(0, 0, 0.01), at(4, 1), at(12, 2.2, 1) },
+  { height = { at(4, 1), at(12, 2.2, 1) },
     { "N", at(4, 1), at(9, 0.8), at(10, 1.2), at(11, 0, 0.6, "inOutCubic"), is_no = true },
     { "O", at(4.5, 1), at(9, 0.8), at(10, 1.3), at(11.2, 0, 0.6, "inOutCubic"), is_no = true },
     { "R", at(6, 0.3), at(11, 1, 1) },
