@@ -74,8 +74,9 @@ io.write [[
 
 For people who look for an idea: works of a few seconds, each with its script to take apart.
 `celspan play scripts/works/moon_cat.lua --allow scripts` shows one; `celspan render` with `-o
-film.mp4` makes a video of it, and `./run docs` of all. [The cookbook](cookbook.md) has shorter scripts, one
-for each task. Everything here is drawn by its script: what looks like a photograph or a scan, too.
+film.mp4` makes a video of it, and `./run docs` of all. [The cookbook](cookbook.md) has shorter
+scripts, one for each task. Everything here is drawn by its script: what looks like a photograph or
+a scan, too.
 ]]
 for _, picture in ipairs(list) do
   if picture.name:find "^works/" then put_work(picture.name) end

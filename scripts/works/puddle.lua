@@ -1,0 +1,203 @@
+-- The puddle: nobody is looking, so a child jumps, and the umbrella has other plans.
+local mood = require("stage.moods").fog
+
+local set = parameters { grain = { 0.018, min = 0, max = 0.3 } }
+
+local function none() return union {} end
+local child = puppet.person { art = svg.load("../drawings/child.svg"):with { umbrella = none },
+  switches = { "eye" }, bones = { { "scarf", from = "knot", to = "fold", parent = "body" },
+    { "scarf end", from = "fold", to = "fringe" } } }
+local gait = { stride = 128, pace = 2.2, bounce = 5 }
+local GROUND, SIZE = 610, 1.25
+local STOP = 2.5 -- seconds, when the child is there
+
+-- ---------------------------------------------------------------- the acting, in seconds
+
+local SMOOTH, FAST, OVER = "inOutSine", "outCubic", "outBack"
+
+--- Right and down of the whole, in pixels, after the walk.
+local place = keys { { 5.2, { 0, 0 } }, { 5.75, { 225, -140 }, "outQuad" },
+  { 6.4, { 268, -122 }, SMOOTH }, { 7.0, { 292, -140 }, SMOOTH }, { 7.16, { 296, -146 } },
+  { 7.42, { 302, 0 }, "inQuad" }, { 8.75, { 302, 0 } }, { 8.95, { 308, -44 }, "outQuad" },
+  { 9.12, { 314, 0 }, "inQuad" } }
+
+--- Degrees of body and head, and how low the hips are.
+local stance = keys { { 2.8, { 0, 0, 0 } }, { 3.1, { 15, 20, 6 }, SMOOTH }, { 3.7, { 15, 22, 6 } },
+  { 3.85, { 0, -6, 0 }, SMOOTH }, { 4.55, { 0, -6, 0 } }, { 4.7, { 0, 4, 0 }, SMOOTH },
+  { 5.05, { 26, -6, 42 }, SMOOTH }, { 5.2, { 28, -8, 45 } }, { 5.3, { 2, -16, -6 }, FAST },
+  { 5.75, { -8, 6, 0 }, SMOOTH }, { 6.2, { -3, -8, 0 }, SMOOTH }, { 6.6, { 3, 0, 0 }, SMOOTH },
+  { 7.0, { 0, -20, 0 } }, { 7.16, { -4, -24, -3 } }, { 7.42, { 4, 10, 0 } },
+  { 7.5, { 20, 16, 48 }, FAST }, { 7.62, { 18, 12, 44 } }, { 8.0, { 0, 0, 0 }, SMOOTH },
+  { 8.2, { -4, -22, 0 }, SMOOTH }, { 8.5, { -4, -22, 0 } }, { 8.72, { 14, 8, 26 }, SMOOTH },
+  { 8.8, { 0, -8, -3 }, FAST }, { 9.12, { 2, 0, 0 } }, { 9.2, { 14, 6, 30 }, FAST },
+  { 9.55, { 0, -10, 0 }, OVER } }
+
+--- Where the ankles are beside their places below the hips: near, then far; in the air they kick.
+local kick = keys { { 5.22, { 0, 0, 0, 0 } }, { 5.4, { -34, -4, -14, -2 }, FAST },
+  { 5.75, { 34, -26, -20, -10 }, SMOOTH }, { 6.05, { -18, -10, 30, -26 }, SMOOTH },
+  { 6.35, { 30, -26, -18, -10 }, SMOOTH }, { 6.65, { -16, -10, 26, -24 }, SMOOTH },
+  { 6.95, { 6, -4, -4, -2 }, SMOOTH }, { 7.16, { 16, -3, -16, 0 }, OVER },
+  { 7.4, { 14, -44, 24, -48 }, SMOOTH }, { 7.44, { 0, 0, 0, 0 } }, { 8.78, { 0, 0, 0, 0 } },
+  { 8.95, { 12, -26, -10, -26 }, SMOOTH }, { 9.1, { 0, 0, 0, 0 } } }
+
+--- Degrees of the near upper arm and forearm, and of the umbrella's pole.
+local arm = keys { { 0, { -30, -112, 8 } }, { 2.8, { -30, -112, 8 } },
+  { 3.1, { -34, -104, 18 }, OVER },
+  { 4.7, { -30, -112, 6 } }, { 5.05, { -4, -120, -26 }, SMOOTH }, { 5.2, { -2, -120, -28 } },
+  { 5.4, { -120, -38, 10 }, FAST }, { 5.9, { -138, -34, -8 }, SMOOTH },
+  { 6.5, { -142, -32, 7 }, SMOOTH }, { 7.0, { -146, -28, -4 }, SMOOTH }, { 7.5, { -128, -50, 12 } },
+  { 8.0, { -64, -92, -6 }, SMOOTH }, { 8.8, { -66, -92, 4 }, SMOOTH }, { 9.2, { -60, -92, -10 } },
+  { 9.6, { -70, -90, 2 }, OVER } }
+
+--- Which way the child looks; between 1 and -1 it turns round.
+local facing = keys { { 3.8, 1 }, { 3.96, -1, SMOOTH }, { 4.5, -1 }, { 4.66, 1, SMOOTH } }
+local shut = { { 1.2, 1.3 }, { 3.4, 3.5 }, { 4.2, 4.3 }, { 6.15, 6.27 }, { 6.4, 6.5 },
+  { 7.44, 7.75 }, { 9.2, 9.3 } }
+local inside_out = keys { { 6.98, 0 }, { 7.02, -0.15 }, { 7.12, 1, OVER } }
+
+--- The camera draws back while the umbrella is high.
+local camera = keys { { 5.0, { 360, 1280 } }, { 5.8, { 292, 1440 }, SMOOTH },
+  { 7.1, { 288, 1450 }, SMOOTH }, { 7.6, { 360, 1280 }, SMOOTH } }
+
+local function below(t) return 3 * select(2, table.unpack(place:at(t - 0.08))) / 20 end
+local flutter = motion.spring(below, { frequency = 1.8, damping = 0.25 })
+
+local function pose_at(t)
+  local walking = puppet.walk(child, math.min(t, STOP), gait)
+  local lean, nod, low = table.unpack(stance:at(t))
+  local nx, ny, fx, fy = table.unpack(kick:at(t))
+  local stand = { at = { 0, low }, body = lean, head = nod, reach = {
+    ["ankle near"] = { 160 + nx, 316 + ny, pole = { 400, 280 }, loose = true },
+    ["ankle far"] = { 140 + fx, 316 + fy, pole = { 400, 280 }, loose = true } } }
+  local pose = t < STOP and walking or stand
+  local upper, fore, pole = table.unpack(arm:at(t))
+  pose["upper arm near"], pose["lower arm near"] = upper, fore
+  pose["upper arm far"] = 10 + 0.8 * lean
+  pose.scarf, pose["scarf end"] = 20 + flutter:at(t), 24 + 1.5 * flutter:at(t - 0.08)
+  pose.eye, pose.back = "open", t > 5.3 and t < 7.7 and { "upper arm near" } or nil
+  for _, span in ipairs(shut) do if t >= span[1] and t < span[2] then pose.eye = "shut" end end
+  return pose, pole
+end
+
+-- ---------------------------------------------------------------- the umbrella and the water
+
+local DOME = "M-98 0 C-90 -56 -40 -80 0 -82 C40 -80 90 -56 98 0 C78 -18 60 -16 34 -2 "
+  .. "C20 -14 -20 -14 -34 -2 C-60 -16 -78 -18 -98 0 Z"
+local CUP = "M-104 -112 C-84 -44 -36 -18 0 -16 C36 -18 84 -44 104 -112 C84 -90 62 -92 36 -108 "
+  .. "C20 -94 -20 -94 -36 -108 C-62 -92 -84 -90 -104 -112 Z"
+local PANEL = "M-34 -2 C-34 -40 -20 -70 0 -82 C20 -70 34 -40 34 -2 C20 -14 -20 -14 -34 -2 Z"
+local INSIDE = "M-36 -108 C-30 -60 -16 -32 0 -16 C16 -32 30 -60 36 -108 C20 -94 -20 -94 -36 -108 Z"
+local canopy, panel = keys { { 0, DOME }, { 1, CUP } }, keys { { 0, PANEL }, { 1, INSIDE } }
+
+local function umbrella(open)
+  return union { stroke { d = "M0 10 V-194 M0 10 q0 13 -11 11", width = 5.5, cap = "round",
+    fill = "#5a4632" }, path { d = canopy:at(open), fill = "#2f7f86" }:translate(0, -104),
+    path { d = panel:at(open), fill = "#3f9aa0" }:translate(0, -104) }
+end
+
+local PUDDLE = nurbs { points = { { 420, 632 }, { 500, 590 }, { 660, 610 }, { 780, 580 },
+  { 950, 606 }, { 900, 650 }, { 760, 640 }, { 640, 690 }, { 470, 664 } }, fill = mood.light }
+
+local function splash(t, from, strong)
+  local drops = particles { seed = "splash " .. from, rate = 900 * strong, from = from,
+    to = from + 0.09, life = { 0.9, 0.3 }, at = { 655, GROUND + 8, 70, 4 },
+    velocity = { 0, -430 * strong ^ 0.5, 330, 260 }, gravity = { 0, 1250 } }
+  local list = {}
+  for _, p in ipairs(drops:at(t)) do
+    if p.y < GROUND + 22 then
+      list[#list + 1] = ellipse { 0, 0, 4 + 9 * p.size * (1 - p.age), 3 + 4 * p.size,
+        fill = p.id % 3 == 0 and mood.light or "#8fb0b5" }
+        :rotate(math.deg(math.atan(p.dy, p.dx))):translate(p.x, p.y)
+    end
+  end
+  local u = (t - from) / 0.6
+  if u > 0 and u < 1 then -- the crown
+    local w, h = (110 + 190 * u) * strong ^ 0.5, 150 * strong * math.sin(math.pi * u ^ 0.6)
+    local d = "M%g 0 Q%g %g %g %g Q%g %g %g %g Q%g %g 0 %g Q%g %g %g %g Q%g %g %g %g Q%g %g %g 0 Z"
+    list[#list + 1] = path { d = d:format(-w, -w, -h, -1.25 * w, -1.3 * h, -0.9 * w, -0.3 * h,
+      -0.6 * w, -0.9 * h, -0.4 * w, -0.1 * h, -0.25 * h, 0.4 * w, -0.1 * h, 0.6 * w, -0.9 * h,
+      0.9 * w, -0.3 * h, 1.25 * w, -1.3 * h, w, -h, w), fill = "#b9cdcc" }
+      :translate(655, GROUND + 14):fade(0.9 - 0.7 * u)
+  end
+  return union(list)
+end
+
+local function rings(t)
+  local list, chance = {}, random "rings"
+  for i = 1, 26 do
+    local age = (t * 1.1 + chance(i)) % 1
+    local turn = (t * 1.1 + chance(i)) // 1
+    local x, y = 450 + 470 * chance(i + 31 * turn + 0.5), 600 + 58 * chance(i + 17 * turn + 0.25)
+    list[i] = ellipse { x, y, 4 + 34 * age, 1 + 8 * age }
+      :stroke { width = 2.2 * (1 - age) + 0.2, fill = mood.near }:fade(0.8 * (1 - age))
+  end
+  for _, from in ipairs { 7.44, 7.6, 9.12 } do
+    local u = (t - from) / 1.1
+    if u > 0 and u < 1 then
+      list[#list + 1] = ellipse { 655, 628, 60 + 230 * u, 8 + 34 * u }
+        :stroke { width = 7 * (1 - u), fill = mood.near }:fade(1 - u)
+    end
+  end
+  return clip(union(list), PUDDLE)
+end
+
+-- ---------------------------------------------------------------- the park
+
+local function trees(colour, base, count, size, seed)
+  local chance, list = random(seed), {}
+  for i = 1, count do
+    local x, s = 1560 * (i - 0.7 + 0.6 * chance(i)) / count - 130, size * (0.7 + 0.6 * chance(-i))
+    list[#list + 1] = stroke { points = { { x, base + 30, 0.16 * s },
+      { x + 3, base - 0.6 * s, 0.1 * s }, { x - 4, base - 1.3 * s, 0.03 * s } },
+      degree = 2, fill = colour }
+    for k = 1, 9 do
+      local a = 2.4 * k
+      list[#list + 1] = ellipse { x + 0.34 * s * math.cos(a) * (k / 9) ^ 0.5,
+        base - 1.25 * s + 0.46 * s * math.sin(a) * (k / 9) ^ 0.5, 0.24 * s, 0.2 * s, fill = colour }
+    end
+  end
+  return union(list)
+end
+
+local LAMP = union { stroke { d = "M1090 620 V250 Q1090 214 1056 214", width = 9, cap = "round",
+  fill = mood.ink }, path { d = "M1030 214 H1082 L1070 246 H1042 Z", fill = mood.ink },
+  rect { 1078, 560, 24, 62, radius = 4, fill = mood.ink } }
+local GLOW = circle { 1056, 254, 190, fill = radial { centre = { 1056, 254 }, radius = 190,
+  { 0, "#fff3cfd0" }, { 0.16, "#fff0c870" }, { 1, "#fff0c800" } } }
+local BACKDROP = union {
+  rect { -200, -200, 1680, 920, fill = linear { from = { 0, -100 }, to = { 0, 560 },
+    table.unpack(mood.sky) } },
+  trees(mood.far, 500, 9, 190, "far"), trees("#9fb0ac", 530, 6, 250, "middle"),
+  rect { -200, 520, 1680, 260, fill = linear { from = { 0, 520 }, to = { 0, 720 }, mood.near,
+    mood.ground } }, GLOW, LAMP,
+  PUDDLE:with { fill = linear { from = { 0, 590 }, to = { 0, 670 }, "#a9bcbb", mood.sky[3] } } }
+
+local drops = particles { seed = "rain", rate = 300, life = 1.05, at = { 760, -190, 960, 20 },
+  velocity = { -90, 860, 10, 90 } }
+local function rain(t)
+  local list = {}
+  for i, p in ipairs(drops:at(t)) do
+    list[i] = stroke { points = { { p.x, p.y }, { p.x + 3.4, p.y - 34 } }, width = 1.6,
+      cap = "round", fill = rgb("#ffffff", 0.2 + 0.4 * p.size) }
+  end
+  return union(list)
+end
+
+return film { title = "The puddle", size = { 1280, 720 }, fps = 24, frames = 244, poster = "6s",
+  grain = { amount = set.grain, size = 1.6 },
+  frame = function(f)
+    local t = f:twos()
+    local pose, pole = pose_at(t)
+    local x, y = table.unpack(place:at(t))
+    local high, wide = table.unpack(camera:at(t))
+    local hx, hy = child:joint(pose, "hand near")
+    local figure = (umbrella(inside_out:at(t)):rotate(pole):translate(hx, hy) | child:pose(pose))
+      :scale(facing:at(t), 1, 150, 0):scale(SIZE)
+      :translate(-292 + x + SIZE * child:walked(math.min(t, STOP), gait), y + GROUND - 334 * SIZE)
+    local mirrored = figure:scale(1, -0.6, 0, GROUND + 4)
+    local shadow = ellipse { -292 + x + SIZE * (150 + child:walked(math.min(t, STOP), gait)),
+      GROUND + 2, 66 + 0.12 * y, 9, fill = mood.ink }:fade(0.35)
+    return { BACKDROP, clip(mirrored:fade(0.34), PUDDLE), rings(t), shadow, figure,
+      splash(t, 7.42, 1), splash(t, 9.12, 0.4), rain(f.time),
+      camera = { centre = { 640, high }, width = wide } }
+  end }
