@@ -27,7 +27,7 @@ local list = {
     still = "webp", allow = "scripts", set = "grain=0" },
   { name = "works/thread", script = "scripts/works/thread.lua", frame = 143, size = "960x540",
     still = "webp", allow = "scripts", set = "grain=0" },
-  { name = "works/rooster", script = "scripts/works/rooster.lua", frame = 154, size = "760x428",
+  { name = "works/rooster", script = "scripts/works/rooster.lua", frame = 154, size = "720x405",
     still = "webp", allow = "scripts", set = "grain=0" },
   { name = "works/moon_cat", script = "scripts/works/moon_cat.lua", frame = 97, size = "960x540",
     still = "webp", allow = "scripts" },

@@ -1,5 +1,6 @@
 -- A line of one's own: a line curls up, wakes as a bird, and takes itself away from the paper. Line
 -- and bird are one stroke, drawn again for each second frame.
+local tones = require "stage.tones"
 local mood = require("stage.moods").paper
 
 local set = parameters { grain = { 0.025, min = 0, max = 0.3 } }
@@ -120,8 +121,24 @@ local function feather(f, t)
   return quill:rotate(-34 * math.sin(7.5 * u) * (1 - u)):scale(1.5):translate(x, y)
 end
 
+-- ---------------------------------------------------------------- the sound
+
+--- A pencil on paper; she wakes, shakes herself, and goes up in thirds. The feather comes down.
+local notes = { { 0, "noise", 1.5, low = 0.35, rise = 0.5, gain = 0.35 }, { 1.55, "glide", 220,
+  to = 330, long = 0.6, gain = 0.3 }, { 3.3, "pluck", "G5" }, { 3.55, "pluck", "C5" },
+  { 5.0, "pluck", "G3" }, { 5.3, "noise", 0.7, low = 0.6, gain = 0.5 } }
+for i = 0, 4 do notes[#notes + 1] = { 4.25 + 0.08 * i, "noise", 0.07, low = 0.4, gain = 0.5 } end
+for i, tone in ipairs { "C4", "E4", "G4", "C5", "E5", "G5", "E5", "C5", "E5", "G5", "C6", "E6" } do
+  notes[#notes + 1] = { 5.2 + 0.17 * i, "pluck", tone, gain = 0.6 }
+end
+for i, tone in ipairs { "E5", "D5", "C5", "A4", "G4", "E4" } do
+  notes[#notes + 1] = { 7.3 + 0.42 * i, "pluck", tone, gain = 0.5 }
+end
+notes[#notes + 1] = { 10.3, "pluck", "C4", gain = 0.7 }
+
 return film { title = "A line of one's own", size = { 1280, 720 }, fps = 24, frames = 264,
-  poster = "4.6s", grain = { amount = set.grain, size = 2, frame = 0 },
+  poster = "6s", sound = tones(11, notes),
+  grain = { amount = set.grain, size = 2, frame = 0 },
   frame = function(f)
     local t = f:twos()
     local s = head:at(t)
