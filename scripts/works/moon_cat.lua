@@ -1,6 +1,6 @@
 -- The cat and the moon: whoever pats the moon may get the day. Everything is one expression, `moon
 -- ~ town`: where the moon is behind the town, black and white change places.
-local tones = require "stage.tones"
+local score = require "sound.score"
 
 -- ---------------------------------------------------------------- how she acts, in seconds
 
@@ -162,23 +162,23 @@ end
 -- ---------------------------------------------------------------- the sound
 
 --- A music box in A minor by night, and in A major by day; what she does is heard with it.
-local notes = { { 2.56, "thump", 150 }, { 2.6, "noise", 1.3, low = 0.93, rise = 0.4 },
-  { 4.88, "thump", 110, gain = 1.4 }, { 4.9, "noise", 0.8, low = 0.9, rise = 0.2 },
-  { 5.6, "noise", 1.6, low = 0.9, rise = 0.88, gain = 2 }, { 7.05, "thump", 70, gain = 1.6 },
-  { 10.15, "pluck", "A3" }, { 10.3, "pluck", "E5", gain = 0.6 } }
+local notes = { { 2.56, score.thump(150), 0.3 }, { 2.6, score.wind(0.07, 1.3, 0.4), 0.3 },
+  { 4.88, score.thump(110), 0.42 }, { 4.9, score.wind(0.1, 0.8, 0.2), 0.3 },
+  { 5.6, score.wind(0.1, 1.6, 0.88), 0.6 }, { 7.05, score.thump(70), 0.48 },
+  { 10.15, score.bell("A3", 1.6), 0.3 }, { 10.3, score.bell("E5", 1.6), 0.18 } }
 for i, tone in ipairs { "A4", "E5", "C5", "E5", "A4", "E5", "B4", "E5", "A4", "E5", "C5", "E5" } do
-  notes[#notes + 1] = { 0.42 * i - 0.2, "pluck", tone, gain = 0.45 }
+  notes[#notes + 1] = { 0.42 * i - 0.2, score.bell(tone, 1.6), 0.135 }
 end
 for i, tone in ipairs { "A3", "E4", "A4", "C#5", "E5", "A5" } do
-  notes[#notes + 1] = { 7.05 + 0.06 * i, "pluck", tone, gain = 0.7 }
+  notes[#notes + 1] = { 7.05 + 0.06 * i, score.bell(tone, 1.6), 0.21 }
 end
 for i = 1, 5 do
-  notes[#notes + 1] = { 8.5 + 0.21 * i + i % 2 * 0.05, "glide", 2400 + 200 * (i % 3), to = 3000,
-    long = 0.09, gain = 0.25 }
+  notes[#notes + 1] = { 8.5 + 0.21 * i + i % 2 * 0.05,
+    score.slide(2400 + 200 * (i % 3), 3000, 0.09), 0.075 }
 end
 
 return film { title = "The cat and the moon", size = { 1280, 720 }, fps = 24, frames = 264,
-  poster = "4s", background = "#000", sound = tones(11, notes),
+  poster = "4s", background = "#000", sound = score.play(11, notes),
   frame = function(f)
     local t = f:twos()
     local moon = circle { 560, 330, radius:at(t) }:rotate(swing:at(t), 560, -900)

@@ -1,5 +1,5 @@
 -- The puddle: nobody is looking, so a child jumps, and the umbrella has other plans.
-local tones = require "stage.tones"
+local score = require "sound.score"
 local mood = require("stage.moods").fog
 
 local set = parameters { grain = { 0.018, min = 0, max = 0.3 } }
@@ -187,25 +187,25 @@ end
 -- ---------------------------------------------------------------- the sound
 
 --- Rain, boots, a waltz that stops in the air, and water.
-local notes = { { 0, "noise", 10, low = 0.3, rise = 0.02, gain = 0.16 },
-  { 5.2, "glide", 260, to = 880, long = 0.55, gain = 0.4 }, { 7.0, "thump", 300, gain = 0.8 },
-  { 7.16, "glide", 900, to = 200, long = 0.26, gain = 0.5 },
-  { 7.42, "noise", 1.1, low = 0.45, rise = 0.03, gain = 1.6 }, { 7.42, "thump", 80, gain = 1.6 },
-  { 9.12, "noise", 0.6, low = 0.5, rise = 0.03, gain = 0.8 }, { 9.12, "thump", 100 },
-  { 9.55, "pluck", "G4" }, { 9.75, "pluck", "C5" } }
-for i = 0, 5 do notes[#notes + 1] = { 0.1 + i / 2.2, "thump", 120 + i % 2 * 25, gain = 0.5 } end
+local notes = { { 0, score.wind(0.7, 10, 0.02), 0.048 },
+  { 5.2, score.slide(260, 880, 0.55), 0.12 }, { 7.0, score.thump(300), 0.24 },
+  { 7.16, score.slide(900, 200, 0.26), 0.15 },
+  { 7.42, score.wind(0.55, 1.1, 0.03), 0.48 }, { 7.42, score.thump(80), 0.48 },
+  { 9.12, score.wind(0.5, 0.6, 0.03), 0.24 }, { 9.12, score.thump(100), 0.3 },
+  { 9.55, score.bell("G4", 1.6), 0.3 }, { 9.75, score.bell("C5", 1.6), 0.3 } }
+for i = 0, 5 do notes[#notes + 1] = { 0.1 + i / 2.2, score.thump(120 + i % 2 * 25), 0.15 } end
 for i, tone in ipairs { "C4", "E5", "E5", "G3", "D5", "D5", "C4", "E5", "G5" } do
-  notes[#notes + 1] = { 0.27 * i - 0.15, "pluck", tone, gain = 0.45 }
+  notes[#notes + 1] = { 0.27 * i - 0.15, score.bell(tone, 1.6), 0.135 }
 end
 for i, tone in ipairs { "A4", "B4", "C5", "B4", "C5", "D5" } do -- nobody looks
-  notes[#notes + 1] = { 3 + 0.33 * i, "pluck", tone, gain = 0.35 }
+  notes[#notes + 1] = { 3 + 0.33 * i, score.bell(tone, 1.6), 0.105 }
 end
 for i = 0, 8 do -- the umbrella holds
-  notes[#notes + 1] = { 5.75 + 0.15 * i, "pluck", i % 2 == 0 and "A5" or "G5", gain = 0.3 }
+  notes[#notes + 1] = { 5.75 + 0.15 * i, score.bell(i % 2 == 0 and "A5" or "G5", 1.6), 0.09 }
 end
 
 return film { title = "The puddle", size = { 1280, 720 }, fps = 24, frames = 244, poster = "6.5s",
-  sound = tones(10, notes),
+  sound = score.play(10, notes),
   grain = { amount = set.grain, size = 1.6 },
   frame = function(f)
     local t = f:twos()

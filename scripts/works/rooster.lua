@@ -1,6 +1,6 @@
 -- Cut-paper morning: a rooster of scraps calls for the sun until he falls to pieces, and the sun
 -- keeps his face. All papers are drawn here, with scissors of numbers; poses are held for threes.
-local tones = require "stage.tones"
+local score = require "sound.score"
 
 local set = parameters { grain = { 0.02, min = 0, max = 0.3 } }
 
@@ -238,30 +238,30 @@ local FLOOR = torn(strip(664, 30, "floor"), GRAPH, 13)
 -- ---------------------------------------------------------------- the sound
 
 --- Paper, letters on wooden keys, two crows, and a morning in F.
-local notes = { { 3.1, "glide", 520, to = 700, long = 0.5, gain = 0.5 },
-  { 5.84, "glide", 480, to = 820, long = 0.3, gain = 0.6 },
-  { 6.14, "glide", 820, to = 700, long = 0.42, gain = 0.7 },
-  { BURST, "noise", 0.8, low = 0.3, gain = 1.2 }, { BURST, "thump", 70, gain = 1.4 } }
+local notes = { { 3.1, score.slide(520, 700, 0.5), 0.15 },
+  { 5.84, score.slide(480, 820, 0.3), 0.18 },
+  { 6.14, score.slide(820, 700, 0.42), 0.21 },
+  { BURST, score.wind(0.7, 0.8, 0.05), 0.36 }, { BURST, score.thump(70), 0.42 } }
 for _, piece in ipairs(PIECES) do
-  notes[#notes + 1] = { piece.start, "noise", 0.14, low = 0.2, gain = 0.5 }
-  notes[#notes + 1] = { piece.start + 0.36, "thump", 260, gain = 0.35 }
-  if piece[4] then notes[#notes + 1] = { BURST + 1.35, "thump", 180, gain = 0.3 } end
+  notes[#notes + 1] = { piece.start, score.wind(0.8, 0.14, 0.05), 0.15 }
+  notes[#notes + 1] = { piece.start + 0.36, score.thump(260), 0.105 }
+  if piece[4] then notes[#notes + 1] = { BURST + 1.35, score.thump(180), 0.09 } end
 end
 for k, list in ipairs { FIRST, SECOND, THIRD } do
   for i, one in ipairs(list) do
-    notes[#notes + 1] = { one.from + 0.05, "thump", 330 + 40 * i + 60 * k, gain = 0.5 }
+    notes[#notes + 1] = { one.from + 0.05, score.thump(330 + 40 * i + 60 * k), 0.15 }
   end
 end
 for i, tone in ipairs { "F3", "C4", "F4", "A4", "C5", "F5", "A5" } do
-  notes[#notes + 1] = { BURST + 0.1 * i, "pluck", tone, gain = 0.6 }
+  notes[#notes + 1] = { BURST + 0.1 * i, score.bell(tone, 1.6), 0.18 }
 end
 for i, tone in ipairs { "C5", "A4", "F4" } do
-  notes[#notes + 1] = { 8.5 + 0.3 * i, "pluck", tone, gain = 0.6 }
+  notes[#notes + 1] = { 8.5 + 0.3 * i, score.bell(tone, 1.6), 0.18 }
 end
 
 return film { title = "Cut-paper morning", size = { 1280, 720 }, fps = 24, frames = 240,
   poster = "6.3s",
-  sound = tones(10, notes),
+  sound = score.play(10, notes),
   frame = function(f)
     local t, up = f:threes(), rise:at(f:threes())
     local list = {}

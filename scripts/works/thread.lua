@@ -1,6 +1,6 @@
 -- A line of one's own: a line curls up, wakes as a bird, and takes itself away from the paper. Line
 -- and bird are one stroke, drawn again for each second frame.
-local tones = require "stage.tones"
+local score = require "sound.score"
 local mood = require("stage.moods").paper
 
 local set = parameters { grain = { 0.025, min = 0, max = 0.3 } }
@@ -124,20 +124,21 @@ end
 -- ---------------------------------------------------------------- the sound
 
 --- A pencil on paper; she wakes, shakes herself, and goes up in thirds. The feather comes down.
-local notes = { { 0, "noise", 1.5, low = 0.35, rise = 0.5, gain = 0.35 }, { 1.55, "glide", 220,
-  to = 330, long = 0.6, gain = 0.3 }, { 3.3, "pluck", "G5" }, { 3.55, "pluck", "C5" },
-  { 5.0, "pluck", "G3" }, { 5.3, "noise", 0.7, low = 0.6, gain = 0.5 } }
-for i = 0, 4 do notes[#notes + 1] = { 4.25 + 0.08 * i, "noise", 0.07, low = 0.4, gain = 0.5 } end
+local notes = { { 0, score.wind(0.65, 1.5, 0.5), 0.105 },
+  { 1.55, score.slide(220, 330, 0.6), 0.09 }, { 3.3, score.bell("G5", 1.6), 0.3 },
+  { 3.55, score.bell("C5", 1.6), 0.3 },
+  { 5.0, score.bell("G3", 1.6), 0.3 }, { 5.3, score.wind(0.4, 0.7, 0.05), 0.15 } }
+for i = 0, 4 do notes[#notes + 1] = { 4.25 + 0.08 * i, score.wind(0.6, 0.07, 0.05), 0.15 } end
 for i, tone in ipairs { "C4", "E4", "G4", "C5", "E5", "G5", "E5", "C5", "E5", "G5", "C6", "E6" } do
-  notes[#notes + 1] = { 5.2 + 0.17 * i, "pluck", tone, gain = 0.6 }
+  notes[#notes + 1] = { 5.2 + 0.17 * i, score.bell(tone, 1.6), 0.18 }
 end
 for i, tone in ipairs { "E5", "D5", "C5", "A4", "G4", "E4" } do
-  notes[#notes + 1] = { 7.3 + 0.42 * i, "pluck", tone, gain = 0.5 }
+  notes[#notes + 1] = { 7.3 + 0.42 * i, score.bell(tone, 1.6), 0.15 }
 end
-notes[#notes + 1] = { 10.3, "pluck", "C4", gain = 0.7 }
+notes[#notes + 1] = { 10.3, score.bell("C4", 1.6), 0.21 }
 
 return film { title = "A line of one's own", size = { 1280, 720 }, fps = 24, frames = 264,
-  poster = "6s", sound = tones(11, notes),
+  poster = "6s", sound = score.play(11, notes),
   grain = { amount = set.grain, size = 2, frame = 0 },
   frame = function(f)
     local t = f:twos()

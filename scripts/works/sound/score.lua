@@ -8,7 +8,7 @@
 --
 -- A voice is { length =, at = function(t) return -1..1 end }, with t in seconds from its start.
 
-local RATE, TAU = 24000, 2 * math.pi
+local RATE, TAU = 16000, 2 * math.pi
 local sin, exp, floor = math.sin, math.exp, math.floor
 
 local score = {}
@@ -26,6 +26,14 @@ function score:add(time, voice, volume, pan)
     self.left[place] = self.left[place] + left * value
     self.right[place] = self.right[place] + right * value
   end
+end
+
+local STEPS = { C = -9, D = -7, E = -5, F = -4, G = -2, A = 0, B = 2 }
+
+--- The frequency of a tone with a name, such as "F#3".
+local function named(tone)
+  local letter, sharp, octave = tone:match "^(%u)(#?)(%d)$"
+  return 440 * 2 ^ ((STEPS[letter] + #sharp) / 12 + tonumber(octave) - 4)
 end
 
 --- Noise that is the same in every run.
@@ -56,8 +64,19 @@ function score.click(brightness, length)
   end }
 end
 
---- A tone that is struck and rings.
+--- Rain, wind, paper or water: noise that grows for a share of its length, and goes.
+function score.wind(brightness, length, share)
+  local low = 0
+  return { length = length, at = function(t)
+    local u = t / length
+    low = low + brightness * (hiss() - low)
+    return low * (u < share and u / share or (math.max(0, 1 - u) / (1 - share)) ^ 1.5)
+  end }
+end
+
+--- A tone that is struck and rings; also by its name.
 function score.bell(hertz, length)
+  if type(hertz) == "string" then hertz = named(hertz) end
   return { length = length, at = function(t)
     return (sin(TAU * hertz * t) + 0.3 * sin(TAU * 2.76 * hertz * t) * exp(-9 * t))
       * exp(-5 * t / length) * math.min(1, 400 * t)
@@ -114,6 +133,13 @@ function score:address()
     parts[#parts + 1] = pair[bits >> 12] .. pair[bits & 4095]
   end
   return "data:audio/wav;base64," .. table.concat(parts)
+end
+
+--- The address of a score, whose notes are { time, voice, volume, pan }.
+function score.play(seconds, notes)
+  local mix = score(seconds)
+  for _, note in ipairs(notes) do mix:add(table.unpack(note)) end
+  return mix:address()
 end
 
 return setmetatable(score, { __call = function(_, seconds)
