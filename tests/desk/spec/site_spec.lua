@@ -197,6 +197,24 @@ describe("the site #plain", function()
     assert.equal("docs/site/menu.json: docs/a.md is missing",
       refused(menu, { ["README.md"] = "# celspan\n\nText.\n", ["docs/a.md"] = "# A\n\nText.\n" }))
   end)
+
+  it("plays the film of a work where it was made, and else shows its picture", function()
+    bench:inside("mkdir -p works/docs/pictures/works works/out/docs/works")
+    bench:inside(("cp -r '%s/docs/site' works/docs/site"):format(root))
+    bench:write("works/docs/site/menu.json", '{ "Begin": { "README.md": "celspan" } }')
+    bench:write("works/README.md", "# celspan\n\n![A cat](docs/pictures/works/cat.webp)\n")
+    bench:write("works/docs/pictures/works/cat.webp",
+      markdown.read "docs/pictures/works/moon_cat.webp")
+    local function index()
+      local code, _, err = bench:inside "cd works && node docs/site/make.js ../shown"
+      assert.equal(0, code, err)
+      return bench:read "shown/index.html"
+    end
+    assert.matches('<img src="pictures/works/cat.webp"', index(), 1, true)
+    bench:write("works/out/docs/works/cat.mp4", "film")
+    assert.matches('<video src="works/cat.mp4" poster="pictures/works/cat.webp"', index(), 1, true)
+    assert.equal("film", bench:read "shown/works/cat.mp4")
+  end)
 end)
 
 if not present.program "chromium" then return pending "there is no chromium" end
