@@ -1,20 +1,19 @@
-local chance = random "town"
-local sky = linear { from = { 0, -60 }, to = { 0, 220 }, { 0, "#f08a5d" },
-  { 1, "#ffe3a8" } }
+local noon, chance = require("stage.moods").noon, random "town"
+local sky = linear { from = { 0, -60 }, to = { 0, 220 }, table.unpack(noon.sky) }
 local town = {
   rect { -90, -90, 660, 320, fill = sky },
-  circle { 110, 70, 34, fill = "#fff3cf" } }
+  circle { 110, 70, 34, fill = noon.light } }
 for i = 0, 9 do
   local x, floors = 62 * i - 76, 2 + math.floor(4 * chance(i))
   town[#town + 1] = rect { x, 186 - 26 * floors, 58, 26 * floors + 30,
-    fill = ({ "#b5536a", "#8d4a75", "#cf6f63" })[i % 3 + 1] }
+    fill = ({ noon.ground, "#e0a46c", "#f3e6c4" })[i % 3 + 1] }
   for k = 0, 2 * floors - 1 do
     town[#town + 1] = rect { x + 11 + 24 * (k % 2), 168 - 26 * (k // 2), 12, 15,
-      fill = "#ffd98f" }
+      fill = "#4f8fa3" }
   end
 end
-town[#town + 1] = rect { -90, 204, 660, 150, fill = "#4b3f63" }
-  | rect { -90, 204, 660, 5, fill = "#7a6a8f" }
+town[#town + 1] = rect { -90, 204, 660, 150, fill = "#5f7f86" }
+  | rect { -90, 204, 660, 5, fill = "#d9e4dc" }
   | stroke { d = "M-90 250 H570", width = 4, dash = { 30, 22 }, fill = "#e8dcc0" }
 local function car(x, y, paint, hop)
   return union {

@@ -14,10 +14,10 @@ for k = 0, 99 do
     lanes[lane][k + 1] = rect { 40 + 4 * k, y, 2.6, high, radius = 1.3 }
   end
 end
-local tints = { "#ffd166", "#6fc3df", "#ff7b6b" }
-local sky = linear { from = { 0, 0 }, to = { 0, 160 }, { 0, "#3b3486" },
-  { 1, "#f0938c" } }
-local disc = circle { 0, 0, 18, fill = "#ff7b6b" }
+local neon = require("stage.moods").neon
+local tints = { "#ffe14d", neon.light, neon.accent }
+local sky = linear { from = { 0, 0 }, to = { 0, 160 }, table.unpack(neon.sky) }
+local disc = circle { 0, 0, 18, fill = neon.accent }
 local striped = disc | clip(rect { -6, -18, 12, 36, fill = "#fff3d6" }, disc)
 
 local function height(u) return 132 - 420 * u * (1 - u) end
@@ -30,7 +30,7 @@ local function scene(time)
     :translate(x, height(u) + 6 * squash)
   return cel {
     rect { 0, 0, 480, 162, fill = sky },
-    rect { 0, 150, 480, 12, fill = "#241f4f" },
+    rect { 0, 150, 480, 12, fill = neon.ink },
     ball }
 end
 
