@@ -1,14 +1,14 @@
-local sky = linear { from = { 0, 0 }, to = { 0, 250 }, { 0, "#1d2a5c" },
-  { 0.6, "#c8638c" }, { 1, "#ffc27a" } }
+local neon = require("stage.moods").neon
+local sky = linear { from = { 0, 0 }, to = { 0, 250 }, table.unpack(neon.sky) }
 local ground = path {
-  fill = "#1b1730",
+  fill = neon.ink,
   d = "M-20 250 Q60 226 120 240 T240 236 T360 240 T500 228 V290 H-20 Z M176"
     .. " 246 L236 126 H244 L304 246 H292 L240 142 L188 246 Z" }
 for i = 0, 11 do
   -- tents and their flags
   local x, h = 44 * i - 6, 16 + 14 * random "tent"(i)
   ground = ground
-    | path { fill = "#1b1730", d = ("M%g 250 V%g L%g %g V%g L%g %g L%g %g V250 Z")
+    | path { fill = neon.ink, d = ("M%g 250 V%g L%g %g V%g L%g %g L%g %g V250 Z")
       :format(x - 18, 250 - h, x - 1, 238 - 2 * h, 226 - 2 * h, x + 9, 230 - 2 * h, x + 1,
         234 - 2 * h, x + 18, 250 - h) }
 end
