@@ -22,7 +22,8 @@ local function looks_same(before, after)
   return tonumber(off:match "^%d+" or 255) <= MOST_OFF
 end
 
-for name in system.output(("cd '%s' && find * -type f | LC_ALL=C sort"):format(folder)):gmatch "[^\n]+" do
+local names = system.output(("cd '%s' && find * -type f | LC_ALL=C sort"):format(folder))
+for name in names:gmatch "[^\n]+" do
   local before, after = folder .. "/" .. name, now .. "/" .. name
   local is_picture = name:find "%.png$" or name:find "%.webp$" or name:find "%.mp4$"
   if is_picture and system.exists(after) and system.read(before) ~= system.read(after) then

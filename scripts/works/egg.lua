@@ -27,7 +27,7 @@ local function shell(size)
   return egg(size, SHELL) | moon
 end
 
---- A zigzag from x0 to x1 at y; what is below it, down to `low`, or above it.
+--- A zigzag from x0 to x1 at y; the area from it down to `low`, or up.
 local function jagged(x0, x1, y, to)
   local points, teeth = { { x0, to } }, 12
   for i = 0, teeth do

@@ -113,12 +113,13 @@ describe("the playground #plain", function()
         encode() {}
         close() {}
         async flush() {
-          const own = bytes(${read("tone.aac")}), describe = { description: new Uint8Array([17, 144]) };
+          const own = bytes(${read("tone.aac")});
+          const decoderConfig = { description: new Uint8Array([17, 144]) };
           for (let at = 0, i = 0, end; at < own.length; at = end, i++) {
             end = at + ((own[at + 3] & 3) << 11 | own[at + 4] << 3 | own[at + 5] >> 5);
             const data = own.subarray(at + 7, end);
             this.output({ byteLength: data.length, copyTo: to => to.set(data), type: "key",
-              timestamp: Math.round(i * 1024e6 / RATE) }, { decoderConfig: describe });
+              timestamp: Math.round(i * 1024e6 / RATE) }, { decoderConfig });
           }
         }
       }
@@ -141,8 +142,8 @@ describe("the playground #plain", function()
       const aac = await calls.save({ ...film, kind: "mp4", sound }, all);
       delete globalThis.VideoEncoder;
       const none = await fault(calls.save({ ...film, kind: "webm" }, all));
-      return { webm: await text(webm), mp4: await text(mp4), aac: await text(aac), apng: await text(apng), png: await text(png), odd, huge,
-        none, hash: [...hash].map(one => one.toString(16).padStart(2, "0")).join("") };]=]
+      return { webm: await text(webm), mp4: await text(mp4), aac: await text(aac),
+        apng: await text(apng), png: await text(png), odd, huge, none, hash: [...hash].map(one => one.toString(16).padStart(2, "0")).join("") };]=]
     for _, kind in ipairs { "webm", "mp4", "apng", "png" } do keep("film." .. kind, saved[kind]) end
     keep("aac.mp4", saved.aac)
   end)
