@@ -45,8 +45,10 @@ static void plan_box(cs_sampler *s, const footprint *f) {
   wide = wide > 1 + CS_SAMPLER_SAME ? wide : 1;
   high = high > 1 + CS_SAMPLER_SAME ? high : 1;
   s->kernel = CS_SAMPLER_BOX;
+  /* Smaller levels of a picture in tiles are files, which are read in place of its many pixels. */
+  double texels = s->picture->tiles.size > 0 ? 1 : CS_SAMPLER_BOX_TEXELS;
   s->level = cs_sampler_level(s->level_count, wide < high ? wide : high, wide < high ? high : wide,
-                              CS_SAMPLER_BOX_TEXELS, CS_SAMPLER_MOST_BOX);
+                              texels, CS_SAMPLER_MOST_BOX);
   double most = (double)((int64_t)CS_SAMPLER_MOST_BOX << s->level);
   s->wide = wide < most ? wide : most;
   s->high = high < most ? high : most;

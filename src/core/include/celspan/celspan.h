@@ -299,6 +299,16 @@ typedef enum celspan_picture_use {
 
 typedef struct celspan_surface celspan_surface; /* a picture in memory: see below */
 
+/* A picture in tiles, as Deep Zoom has them: tile (column, row) of a level is the file
+ * LEVEL/COLUMN_ROW.ENDING of a folder, and in level 0 the picture is one pixel. Where a tile is
+ * missing, the next smaller level is enlarged. */
+typedef struct celspan_picture_tiles {
+  int32_t width, height; /* of the picture, pixels: 1 to 16777216 */
+  int32_t size, overlap; /* a tile's side, pixels: 1 to 1048576; what it shares with each neighbour,
+                            at most half of that */
+  char ending[8];
+} celspan_picture_tiles;
+
 typedef struct celspan_picture_desc {
   size_t struct_size;
   const char *file;   /* copied; NULL where there is a surface */
@@ -318,6 +328,8 @@ typedef struct celspan_picture_desc {
   /* Where alpha has 8 bits, the mean of the alphas around it, within half a step of its own: a glow
    * that fades slowly shows no rings. Alpha of more bits, and 0 and 1, stay as they are. */
   bool smooth;
+  /* Copied; `file` is then the folder of the tiles. Without layer, subimage, source and smooth. */
+  const celspan_picture_tiles *tiles;
 } celspan_picture_desc;
 
 CELSPAN_DESCRIPTION(celspan_picture_desc)

@@ -9,7 +9,8 @@
  *   Level 0 is read from the file, or the surface, in batches of rows. A pass fills the blocks of a
  *   window of columns together.
  *
- *   level > base: from the four blocks of the level below
+ *   level > base: from the four blocks of the level below; in tiles, from these
+ *   (model/pictures/tiled.h), as far as the level has some
  *
  *      +---+---+
  *      |   |   |          +---+
@@ -22,8 +23,8 @@
 #include <string.h>
 
 #include "model/colour/srgb8_lanes.h"
-#include "model/pictures/smooth.h"
 #include "model/pictures/surface.h"
+#include "model/pictures/tiled.h"
 
 #define BATCH_BYTES ((size_t)4 << 20)
 #define LEVELS 24
@@ -191,76 +192,17 @@ static celspan_status read_coded(const file_pass *pass, int32_t y, int32_t rows)
   return status == CELSPAN_OK ? status : cs_fail(pass->context, status, "%s", failure.text);
 }
 
-/* Where the texels of a rectangle of the whole are copied to: to the batch, or only their alphas to
- * the alphas. */
-typedef struct copying {
-  celspan_rectangle area;
-  float *batch; /* NULL: the copy goes to the alphas */
-  const cs_smooth_alphas *alphas;
-} copying;
-
-/* Copies the part of the rectangle that lies in a block of the whole. */
-static void copy_from_block(const copying *to, const cs_picture_block *block) {
-  int32_t x0 = to->area.x, y0 = to->area.y;
-  int32_t left = block->column * CS_PICTURE_BLOCK, top = block->row * CS_PICTURE_BLOCK;
-  int32_t from = left > x0 ? left : x0, first = top > y0 ? top : y0;
-  int32_t end = least(left + CS_PICTURE_BLOCK, (int64_t)x0 + to->area.width);
-  int32_t last = least(top + CS_PICTURE_BLOCK, (int64_t)y0 + to->area.height);
-  for (int32_t row = first; row < last; row++) {
-    const float *texels =
-        block->texels + 4 * ((size_t)(row - top) * CS_PICTURE_BLOCK + (size_t)(from - left));
-    size_t place = (size_t)(row - y0) * (size_t)to->area.width + (size_t)(from - x0);
-    if (to->batch)
-      memcpy(to->batch + 4 * place, texels, 4 * sizeof(float) * (size_t)(end - from));
-    else
-      cs_smooth_set(to->alphas, from, row, texels, end - from);
-  }
-}
-
-/* A rectangle of the whole is copied from its blocks, whose texels are light already. */
-static celspan_status copy_from_whole(const file_pass *pass, const copying *to) {
-  const celspan_rectangle *area = &to->area;
-  int32_t right = area->x + area->width, bottom = area->y + area->height;
-  for (int32_t row = area->y / CS_PICTURE_BLOCK; row * CS_PICTURE_BLOCK < bottom; row++)
-    for (int32_t column = area->x / CS_PICTURE_BLOCK; column * CS_PICTURE_BLOCK < right; column++) {
-      cs_picture_block *block;
-      CS_TRY(cs_load_block(pass->context, pass->entry->part->whole, 0, column, row, &block));
-      copy_from_block(to, block);
-      cs_store_release(block);
-    }
-  return CELSPAN_OK;
-}
-
-static celspan_status smooth_batch(const file_pass *pass, const celspan_rectangle *rectangle) {
-  const celspan_picture_info *info = &pass->entry->header.info;
-  cs_memory *memory = pass->context->memory;
-  cs_smooth_alphas alphas = cs_smooth_around(rectangle, info->width, info->height);
-  size_t rows = (size_t)alphas.area.height + 1, row = (size_t)alphas.area.width * sizeof(uint32_t);
-  alphas.sums = cs_mem_array(memory, rows, row);
-  if (!alphas.sums)
-    return cs_fail_memory(pass->context);
-  alphas.steps = alphas.sums + alphas.area.width;
-  celspan_status status = copy_from_whole(pass, &(copying){.area = alphas.area, .alphas = &alphas});
-  if (status == CELSPAN_OK)
-    cs_smooth_rectangle(&alphas, rectangle, pass->batch);
-  cs_mem_free(memory, alphas.sums, rows * row);
-  return status;
-}
-
-static celspan_status read_part(const file_pass *pass, int32_t y, int32_t rows) {
-  const cs_picture *part = pass->entry->part;
-  const celspan_rectangle area = {part->x + pass->x0, part->y + y, pass->x1 - pass->x0, rows};
-  CS_TRY(copy_from_whole(pass, &(copying){.area = area, .batch = pass->batch}));
-  return part->is_smooth ? smooth_batch(pass, &area) : CELSPAN_OK;
-}
-
 /* Blocks are made only when there are rows for them, so that a damaged file that claims to be large
  * needs no memory. */
 static celspan_status read_rows(file_pass *pass) {
   int32_t width = pass->x1 - pass->x0;
   for (int32_t y = pass->y0; y < pass->y1; y += pass->batch_rows) {
     int32_t rows = least(pass->y1 - y, pass->batch_rows);
-    CS_TRY(pass->entry->part ? read_part(pass, y, rows) : read_coded(pass, y, rows));
+    const celspan_rectangle area = {pass->x0, y, width, rows};
+    const cs_part_reader reader = {pass->context, cs_load_block};
+    CS_TRY(pass->entry->part ? cs_part_read(&reader, pass->entry->part, &pass->entry->header.info,
+                                            &area, pass->batch)
+                             : read_coded(pass, y, rows));
     if (!pass->blocks)
       CS_TRY(make_blocks(pass));
     if (!pass->entry->part)
@@ -433,32 +375,37 @@ static celspan_status fill_from_below(celspan_context *context, cs_picture_entry
   return CELSPAN_OK;
 }
 
-static celspan_status make_from_below(celspan_context *context, cs_picture_entry *entry, int level,
-                                      int32_t column, int32_t row, cs_picture_block **out) {
+static celspan_status make(celspan_context *context, cs_picture_entry *entry, int level,
+                           int32_t column, int32_t row, cs_picture_block **out) {
   cs_picture_block *block;
   CS_TRY(cs_store_create_block(context, entry, level, column, row, &block));
   celspan_status status = cs_store_add_texels(context, block);
+  if (status == CELSPAN_OK && level == 0)
+    status = cs_store_add_codes(context, block);
   if (status == CELSPAN_OK)
-    status = fill_from_below(context, entry, block);
+    status = level < entry->tiled_levels
+                 ? cs_tiled_fill(&(cs_part_reader){context, cs_load_block}, entry, block)
+                 : fill_from_below(context, entry, block);
   if (status != CELSPAN_OK) {
     cs_store_discard(block);
     return status;
   }
   describe(entry, block);
+  block->is_coded = block->is_coded && block->column + 1 == columns_of(entry, 0);
   *out = cs_store_insert(block, true);
   return CELSPAN_OK;
 }
 
 /* ---------------------------------------------------------------- a block of any level */
 
-/* `reading` is locked. */
 static celspan_status load(celspan_context *context, cs_picture_entry *entry, int level,
                            int32_t column, int32_t row, cs_picture_block **out) {
   *out = cs_store_pin(entry, level, column, row);
   if (*out)
     return CELSPAN_OK;
-  return level <= entry->base ? run_pass(context, entry, level, column, row, out)
-                              : make_from_below(context, entry, level, column, row, out);
+  bool is_read = level <= entry->base && entry->tiled_levels == 0;
+  return is_read ? run_pass(context, entry, level, column, row, out)
+                 : make(context, entry, level, column, row, out);
 }
 
 static bool is_inside(const cs_picture_entry *entry, int level, int32_t column, int32_t row) {
@@ -470,11 +417,12 @@ static celspan_status load_locked(celspan_context *context, cs_picture_entry *en
                                   const cs_picture *picture, int level, int32_t column, int32_t row,
                                   cs_picture_block **out) {
   pthread_mutex_lock(&entry->reading); /* the lock of a part before the lock of its whole */
-  entry->part = picture->whole ? picture : NULL;
-  entry->surface = picture->whole ? NULL : picture->surface;
+  const cs_picture *outer = entry->part;
+  entry->part = picture->whole || picture->tiles.size > 0 ? picture : NULL;
+  entry->surface = entry->part ? NULL : picture->surface;
   celspan_status status = load(context, entry, level, column, row, out);
   entry->surface = NULL;
-  entry->part = NULL;
+  entry->part = outer;
   pthread_mutex_unlock(&entry->reading);
   return status;
 }

@@ -11,6 +11,7 @@
 #include "model/pictures/surface.h"
 
 #define SIDE_MOST 1048576
+#define TILED_SIDE_MOST 16777216
 
 static char *copy_text(cs_memory *memory, const char *text) {
   size_t size = strlen(text) + 1;
@@ -31,6 +32,10 @@ static cs_hash hash_of(const celspan_picture_desc *desc) {
   cs_hash_text(&hash, desc->colour);
   cs_hash_text(&hash, desc->layer);
   cs_hash_word(&hash, (uint64_t)(desc->layer ? 0 : desc->subimage));
+  if (desc->tiles) {
+    cs_hash_bytes(&hash, desc->tiles, offsetof(celspan_picture_tiles, ending));
+    cs_hash_text(&hash, desc->tiles->ending);
+  }
   return cs_hash_end(hash);
 }
 
@@ -64,14 +69,35 @@ static celspan_status check_source(celspan_context *context, const celspan_box *
   return CELSPAN_OK;
 }
 
+static celspan_status check_tiles(celspan_context *context, const celspan_picture_desc *desc) {
+  const celspan_picture_tiles *t = desc->tiles;
+  if (desc->surface || desc->layer || desc->subimage != 0 || desc->has_source || desc->smooth)
+    return cs_fail(context, CELSPAN_BAD_ARGUMENT,
+                   "picture: one in tiles has no pixels in memory, layer, subimage, source or "
+                   "smooth");
+  if (t->width >= 1 && t->width <= TILED_SIDE_MOST && t->height >= 1 &&
+      t->height <= TILED_SIDE_MOST && t->size >= 1 && t->size <= SIDE_MOST && t->overlap >= 0 &&
+      t->overlap <= t->size / 2 && memchr(t->ending, '\0', sizeof t->ending) && t->ending[0] &&
+      !strchr(t->ending, '/'))
+    return CELSPAN_OK;
+  return cs_fail(context, CELSPAN_BAD_ARGUMENT,
+                 "%s: %d x %d pixels in tiles of %d, with %d of overlap, in files '%.7s': it must "
+                 "be 1 to %d pixels a side in tiles of 1 to %d, with half of that as overlap at "
+                 "most, in files such as 'png'",
+                 desc->file, (int)t->width, (int)t->height, (int)t->size, (int)t->overlap,
+                 t->ending, TILED_SIDE_MOST, SIDE_MOST);
+}
+
 static celspan_status check(celspan_context *context, const celspan_picture_desc *desc) {
   celspan_transfer transfer;
   if (desc->has_source)
     CS_TRY(check_source(context, &desc->source));
-  if (desc->surface)
+  if (desc->surface && !desc->tiles)
     return check_surface(context, desc);
   if (!desc->file || !*desc->file)
     return cs_fail(context, CELSPAN_BAD_ARGUMENT, "picture: file must name a file");
+  if (desc->tiles)
+    CS_TRY(check_tiles(context, desc));
   if (desc->subimage < 0)
     return cs_fail(context, CELSPAN_BAD_ARGUMENT, "picture: subimage is %d; it must be 0 or more",
                    desc->subimage);
@@ -95,6 +121,8 @@ static celspan_status create(celspan_context *context, const celspan_picture_des
   picture->file = copy_text(picture->memory, desc->surface ? "" : desc->file);
   picture->colour = desc->colour ? copy_text(picture->memory, desc->colour) : NULL;
   picture->layer = desc->layer ? copy_text(picture->memory, desc->layer) : NULL;
+  if (desc->tiles)
+    picture->tiles = *desc->tiles;
   picture->tried = tried ? copy_text(picture->memory, tried) : NULL;
   if (!picture->file || !picture->colour != !desc->colour || !picture->layer != !desc->layer ||
       !picture->tried != !tried) {

@@ -7,10 +7,11 @@
 #include "model/colour/primaries.h"
 #include "model/colour/transfer.h"
 #include "model/pictures/surface.h"
+#include "model/pictures/tile_file.h"
 
 /* Files kept open at a time: a film may have a picture for every frame. */
 #define OPEN_READERS 32
-/* If there are more entries of surfaces than this, unused ones are removed. */
+/* If there are more entries of surfaces and tiles than this, unused ones are removed. */
 #define SURFACES_LEAST 256
 
 /* ---------------------------------------------------------------- the store itself */
@@ -183,13 +184,16 @@ static size_t blocks_across(int32_t size, int level) {
 
 /* A row of a frame reads along a row of blocks. If the budget were less than that, every row of the
  * frame would read the file again. A quarter more leaves room for the next row of blocks. A row of
- * smooth blocks is made from three other rows. The caller has locked `lock`. */
+ * smooth blocks is made from three other rows. In tiles, blocks are made one by one. The caller has
+ * locked `lock`. */
 static void plan_entry(cs_picture_store *store, bool is_smooth, cs_picture_entry *entry) {
   const celspan_picture_info *info = &entry->header.info;
+  entry->level_count = cs_mip_levels_count(info->width, info->height);
+  if (entry->tiled_levels > 0)
+    return;
   size_t rows = is_smooth ? 4 : 1;
   size_t least = blocks_across(info->width, 0) * BLOCK_BYTES * (4 * rows + 1) / 4;
   entry->share = cs_cache_raise_budget(&store->blocks, least) / 2 / BLOCK_BYTES;
-  entry->level_count = cs_mip_levels_count(info->width, info->height);
   while (entry->base < entry->level_count - 1 &&
          blocks_across(info->width, entry->base) * blocks_across(info->height, entry->base) >
              entry->share)
@@ -268,6 +272,7 @@ static celspan_status open_file(celspan_context *context, const cs_picture *pict
     return status;
   }
   entry->picture = cs_picture_ref((cs_picture *)(uintptr_t)picture);
+  entry->header.is_whole = entry->header.is_whole || picture->is_tile;
   return CELSPAN_OK;
 }
 
@@ -301,6 +306,8 @@ static celspan_status open_entry(celspan_context *context, cs_picture_store *sto
   celspan_status status = CELSPAN_OK;
   if (picture->whole)
     status = open_part(context, picture, &entry->header);
+  else if (picture->tiles.size > 0)
+    status = cs_tile_file_describe(context, picture, &entry->header, &entry->tiled_levels);
   else if (picture->surface)
     cs_surface_describe(picture->surface, &entry->header);
   else
@@ -309,7 +316,12 @@ static celspan_status open_entry(celspan_context *context, cs_picture_store *sto
     cs_mem_free(store->memory, entry, sizeof *entry);
     return status;
   }
-  pthread_mutex_init(&entry->reading, NULL);
+  pthread_mutexattr_t kind;
+  pthread_mutexattr_init(&kind);
+  if (entry->tiled_levels > 0)
+    pthread_mutexattr_settype(&kind, PTHREAD_MUTEX_RECURSIVE);
+  pthread_mutex_init(&entry->reading, &kind);
+  pthread_mutexattr_destroy(&kind);
   atomic_init(&entry->users, 1);
   entry->hash = picture->hash;
   entry->store = store;
@@ -336,16 +348,21 @@ static void close_readers(cs_picture_store *store) {
         close_unused(store, entry);
 }
 
-/* Removes the entries of surfaces that nobody uses: a host may make a surface for every frame. The
- * caller has locked `lock`. */
-static void drop_surfaces(cs_picture_store *store) {
+static bool is_kept(const cs_picture_entry *entry) {
+  return entry->picture && !entry->picture->is_tile;
+}
+
+/* Removes the entries of surfaces and tiles that nobody uses: a host may make a surface for every
+ * frame, and a picture may have millions of tiles. The caller has locked `lock`. */
+static void drop_unused(cs_picture_store *store) {
   for (size_t i = 0; i < sizeof store->entries / sizeof *store->entries; i++)
     for (cs_picture_entry **link = &store->entries[i], *entry; (entry = *link);) {
-      if (entry->picture || atomic_load_explicit(&entry->users, memory_order_acquire)) {
+      if (is_kept(entry) || atomic_load_explicit(&entry->users, memory_order_acquire)) {
         link = &entry->next;
         continue;
       }
       *link = entry->next;
+      store->reader_count -= entry->reader != NULL;
       destroy_entry(store, entry);
       store->surface_count--;
     }
@@ -357,10 +374,11 @@ static void count_entry(cs_picture_store *store, const cs_picture_entry *entry) 
   if (entry->picture) {
     close_readers(store);
     store->reader_count++;
-    return;
   }
+  if (is_kept(entry))
+    return;
   if (store->surface_count >= store->surface_limit)
-    drop_surfaces(store);
+    drop_unused(store);
   store->surface_count++;
 }
 

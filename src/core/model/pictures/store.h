@@ -60,21 +60,22 @@ struct cs_picture_entry {
   cs_picture_entry *next;
   cs_picture_store *store;
   cs_hash hash;
-  /* calls that use the entry now; if there are none, the entry of a surface may be removed */
+  /* calls that use the entry now; without, one may be removed that is of no file, or of a tile */
   atomic_size_t users;
-  cs_picture *picture; /* a reference; NULL: the entry is of a surface */
+  cs_picture *picture; /* a reference; NULL: the entry is of a surface, a part, or tiles */
   cs_picture_header header;
   cs_mip_levels_decoder decoder;
   int level_count;
   /* The first level of which all blocks fit into `share`. This level and the levels below it are
    * made from the rows of the file; each higher level is made from the level below. */
   int base;
-  size_t share; /* blocks that one pass over the file may make: half the budget */
-  pthread_mutex_t reading;
+  size_t share;              /* blocks that one pass over the file may make: half the budget */
+  int tiled_levels;          /* that have tiles; those above are made from the level below */
+  pthread_mutex_t reading;   /* of a picture in tiles recursive: levels are made of its others */
   cs_picture_reader *reader; /* NULL while it is closed, and for a part */
   int32_t next_strip;        /* in a sequential format the first row of blocks that is not read */
   const celspan_surface *surface; /* while `reading` is locked: of the picture that is loaded */
-  const cs_picture *part;         /* likewise: the part that is loaded, if it is a part */
+  const cs_picture *part;         /* likewise: what is loaded, if it is a part or in tiles */
 };
 
 struct cs_picture_store {
@@ -84,8 +85,8 @@ struct cs_picture_store {
   cs_cache blocks; /* its budget is at least a row of blocks of the widest picture */
   pthread_mutex_t lock;
   cs_picture_entry *entries[256];      /* by hash */
-  size_t surface_count, surface_limit; /* entries of surfaces; there may be more if they are in
-                                          use */
+  size_t surface_count, surface_limit; /* entries that may be removed; there may be more if they
+                                          are in use */
   size_t reader_count;                 /* readers open now */
   float *tables[8][17];                /* light by code, for each transfer and number of bits */
   cs_srgb8_curve curve;                /* the light of all codes */

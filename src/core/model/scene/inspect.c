@@ -238,6 +238,8 @@ static celspan_status open_file(celspan_context *context, const cs_picture *pict
 
 static celspan_status read_picture(const cs_inspection *inspection, const cs_picture *picture) {
   source from = {.surface = picture->surface};
+  if (picture->tiles.size > 0) /* of its many files none is read */
+    return cs_store_info(inspection->context, picture, &from.header.info);
   if (from.surface)
     cs_surface_describe(from.surface, &from.header);
   else

@@ -227,6 +227,7 @@ static const cs_option TILES[] = {
     {"--tiles-limit", "N", &cs_argument_count,
      "the largest number of tiles to make; default: 200000"},
     {"--skip-empty", NULL, NULL, "omit tiles that show only the background"},
+    {"--sparse", NULL, NULL, "write a tile only where it holds more than the coarser one"},
     {"--fresh", NULL, NULL, "remove the tiles of an earlier run and start again"},
     {"--viewer", "PATH", &cs_argument_file_or_folder,
      "OpenSeadragon, a folder or file that is copied beside the page and replaces the built-in "
@@ -464,7 +465,8 @@ const cs_verb cs_verbs[] = {
      .own = TILES,
      .options =
          "-o --frame --size --scale --crop --antialias --format --workers --progress --picture "
-         "--tile --overlap --levels --places --tiles-limit --skip-empty --fresh --viewer " SCRIPT},
+         "--tile --overlap --levels --places --tiles-limit --skip-empty --sparse --fresh "
+         "--viewer " SCRIPT},
     {"sheet", "FILE|SCRIPT", 1, 1, .has_script = true,
      .summary = "Prints or converts an exposure sheet, or writes the sheet of a film.",
      .notes =

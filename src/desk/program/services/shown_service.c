@@ -256,8 +256,8 @@ static int touched(lua_State *L) {
 
 /* ---------------------------------------------------------------- the record */
 
-static bool skips_empty(lua_State *L) {
-  return cs_request_has(cs_service_session(L)->request, "--skip-empty");
+static bool is_given(lua_State *L, const char *option) {
+  return cs_request_has(cs_service_session(L)->request, option);
 }
 
 /* shown:find_tiles() -> which tiles are there: "nothing", the "same" as now, "other" tiles of an
@@ -272,7 +272,8 @@ static int find_tiles(lua_State *L) {
                                  .file = cs_service_session(L)->request->operands[0],
                                  .is_script = s->is_film,
                                  .given = s->script.given,
-                                 .skips_empty = skips_empty(L)};
+                                 .skips_empty = is_given(L, "--skip-empty"),
+                                 .is_sparse = is_given(L, "--sparse")};
   cs_tile_log_state state = CS_TILE_LOG_NEW;
   cs_service_try(L, cs_tile_log_find(s->context, &s->pyramid, &inputs, &s->log, &state));
   lua_pushstring(L, states[state]);
@@ -382,7 +383,8 @@ static int tiles(lua_State *L) {
                            .jobs = push_jobs(L, count),
                            .job_count = count,
                            .log = &s->log,
-                           .skips_empty = skips_empty(L),
+                           .skips_empty = is_given(L, "--skip-empty"),
+                           .is_sparse = is_given(L, "--sparse"),
                            .draw = draw,
                            .finished = finished,
                            .tick = tick,

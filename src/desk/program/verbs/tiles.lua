@@ -57,6 +57,9 @@ end
 if overlap > tile // 2 then
   program.usage("--overlap %d: it can be half of a tile's %d pixels at most", overlap, tile)
 end
+if request.sparse and overlap < 1 then
+  program.usage "--sparse needs --format dzi and --overlap 1 or more"
+end
 local ending = ENDINGS[picture:lower()]
 if not ending then program.usage("--picture: '%s' is not png or jpg", picture) end
 local top, single = shown:pyramid { layout = layout, tile = tile, overlap = overlap,

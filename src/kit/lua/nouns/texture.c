@@ -3,6 +3,7 @@
 
 #include <limits.h>
 #include <math.h>
+#include <string.h>
 
 #include "inside/films.h"
 #include "lua/bind/fields.h"
@@ -10,6 +11,7 @@
 #include "lua/bind/host.h"
 #include "lua/bind/numbers.h"
 #include "lua/nouns/nouns.h"
+#include "readers/layered/dzi.h"
 
 static void create_gradient(const cs_form *form, cs_userdata *value) {
   int count = cs_form_length(form);
@@ -301,6 +303,18 @@ static const char *name_of_file(const cs_form *form, const cs_texture_picture *r
   return lua_pushstring(form->L, name);
 }
 
+/* A picture in tiles is described by its file, which is read now. */
+static void read_tiles(const cs_form *form, celspan_picture_desc *desc) {
+  if (!desc->file || !cs_dzi_is(desc->file))
+    return;
+  celspan_picture_tiles *tiles = cs_form_scratch(form->L, 1, sizeof *tiles);
+  cs_form_try(form, cs_dzi_read(cs_host_context(form->L), desc->file, tiles));
+  lua_pushlstring(form->L, desc->file, strlen(desc->file) - strlen(".dzi"));
+  desc->file = lua_pushfstring(form->L, "%s_files", lua_tostring(form->L, -1));
+  desc->tiles = tiles;
+  cs_host_admit(form->L, desc->file);
+}
+
 void cs_texture_read_picture(const cs_form *form, int holder, cs_texture_picture *out) {
   celspan_picture_desc *desc = &out->picture;
   cs_fields_read(form, out);
@@ -312,6 +326,7 @@ void cs_texture_read_picture(const cs_form *form, int holder, cs_texture_picture
     desc->file = cs_files_find(form->L, name_of_file(form, out), NULL);
   else
     cs_form_fail(form, "field 'file' must be a string, got nil");
+  read_tiles(form, desc);
 }
 
 static void create_picture(const cs_form *form, cs_userdata *value) {

@@ -120,6 +120,11 @@ static celspan_status add_picture(celspan_context *context, cs_picture *picture,
   celspan_picture_info info;
   cs_hash hash = cs_picture_hash(picture);
   cs_record_picture source = {.context = context, .status = &record->status};
+  if (picture->tiles.size > 0)
+    return cs_fail(context, CELSPAN_BAD_ARGUMENT,
+                   "plane: %s is a picture in tiles; a plane keeps every pixel of its pictures: "
+                   "give it one of the part that is in view",
+                   picture->file);
   CS_TRY(cs_store_info(context, picture, &info));
   CS_TRY(find_form(context, picture, &source.is_light));
   source.picture = cs_picture_ref(picture);

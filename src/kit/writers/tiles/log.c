@@ -85,7 +85,7 @@ static cs_hash digest_of(const cs_tile_inputs *inputs, const cs_pyramid *pyramid
   cs_hash_word(&hash, frame->has_antialias ? 1 + (uint64_t)frame->antialias : 0);
   cs_hash_word(&hash, frame->filter ? (uint64_t)frame->filter->kernel : 0);
   cs_hash_word(&hash, frame->filter ? (uint64_t)frame->filter->rows : 0);
-  cs_hash_word(&hash, inputs->skips_empty);
+  cs_hash_word(&hash, inputs->skips_empty + 2 * (uint64_t)inputs->is_sparse);
   if (inputs->is_script)
     add_scene(&hash, inputs);
   else

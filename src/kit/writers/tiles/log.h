@@ -19,8 +19,8 @@ typedef struct cs_tile_inputs {
   const celspan_frame_desc *frame; /* the whole frame */
   const char *file;                /* a script, or a picture */
   bool is_script;
-  cs_hash given;    /* what the script was given: its arguments, and the values of its parameters */
-  bool skips_empty; /* tiles */
+  cs_hash given; /* what the script was given: its arguments, and the values of its parameters */
+  bool skips_empty, is_sparse; /* tiles */
 } cs_tile_inputs;
 
 typedef struct cs_tile_log {

@@ -170,6 +170,8 @@ static celspan_status cut_row(cs_tile_writer *writer, const cs_pyramid_box *box,
 typedef struct tile_content {
   cs_hash hash;
   bool is_empty;
+  bool is_plain; /* it has one colour: */
+  unsigned char pixel[16];
 } tile_content;
 
 static bool is_all(const unsigned char *row, size_t size, const unsigned char *pixel,
@@ -186,13 +188,17 @@ static celspan_status read_content(cs_tile_writer *writer, const cs_pyramid_box 
   size_t size = (size_t)(box->x1 - box->x0) * pixel_size, count;
   CS_TRY(CS_RESERVE(&writer->context, writer->pixels, writer->pixel_capacity, size));
   cs_hash hash = cs_hash_begin((uint64_t)(box->x1 - box->x0));
-  out->is_empty = output->skips_empty;
+  *out = (tile_content){.is_plain = true};
   for (int32_t y = box->y0; y < box->y1; y++) {
     CS_TRY(cut_row(writer, box, y, &count));
     cs_pixels_row(coding, writer->spans, count, writer->pixels);
     cs_hash_bytes(&hash, writer->pixels, size);
-    out->is_empty = out->is_empty && is_all(writer->pixels, size, output->empty, pixel_size);
+    if (y == box->y0)
+      memcpy(out->pixel, writer->pixels, pixel_size);
+    out->is_plain = out->is_plain && is_all(writer->pixels, size, out->pixel, pixel_size);
   }
+  out->is_empty =
+      output->skips_empty && out->is_plain && memcmp(out->pixel, output->empty, pixel_size) == 0;
   out->hash = cs_hash_end(hash);
   return CELSPAN_OK;
 }
@@ -229,6 +235,29 @@ static celspan_status put_alias(cs_tile_writer *writer, const cs_pyramid_box *bo
   return write_tile(writer, box, path);
 }
 
+/* Of a plain tile: a hash of its place and colour. */
+static cs_hash plain_hash(int32_t level, int32_t column, int32_t row, const tile_content *content) {
+  cs_hash hash = cs_hash_begin((uint64_t)level);
+  cs_hash_word(&hash, (uint64_t)column << 32 | (uint64_t)row);
+  cs_hash_bytes(&hash, content->pixel, sizeof content->pixel);
+  return cs_hash_end(hash);
+}
+
+/* Whether a tile is plain like the coarser tile that it is a part of, with the pixels around that;
+ * it is then the same as that one enlarged, and so will be the tiles that are parts of it. */
+static celspan_status holds_no_more(cs_tile_writer *writer, cs_pyramid_tile tile,
+                                    const tile_content *content, bool *out) {
+  cs_tile_known *known = &writer->output->known;
+  cs_pyramid_tile coarser;
+  *out = false;
+  if (!writer->output->is_sparse || !content->is_plain)
+    return CELSPAN_OK;
+  *out = find_known(known, plain_hash(tile.level - 1, tile.column / 2, tile.row / 2, content),
+                    &coarser);
+  return add_known(known, &writer->context, plain_hash(tile.level, tile.column, tile.row, content),
+                   tile);
+}
+
 static celspan_status put_tile(cs_tile_writer *writer, int32_t level, int32_t column, int32_t row) {
   cs_tile_output *output = writer->output;
   cs_pyramid_box tiles = {column, row, column + 1, row + 1};
@@ -236,8 +265,10 @@ static celspan_status put_tile(cs_tile_writer *writer, int32_t level, int32_t co
   char path[PATH_SIZE];
   tile_content content;
   cs_pyramid_tile tile = {level, column, row}, known;
+  bool is_left_out;
   CS_TRY(read_content(writer, &box, &content));
-  if (content.is_empty) {
+  CS_TRY(holds_no_more(writer, tile, &content, &is_left_out));
+  if (content.is_empty || is_left_out) {
     output->skipped++;
     return CELSPAN_OK;
   }

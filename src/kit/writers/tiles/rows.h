@@ -18,8 +18,8 @@
 #include "inside/hash.h"
 #include "writers/tiles/pyramid.h"
 
-/* The tiles that are written already: a hash of their coded pixels, and their place in the pyramid.
- * Any thread. */
+/* The tiles that are written already: a hash of their coded pixels, and their place in the pyramid;
+ * of a sparse pyramid also those of one colour, by place and colour. Any thread. */
 typedef struct cs_tile_known {
   pthread_mutex_t mutex;
   cs_pyramid_tile *tiles;
@@ -33,7 +33,7 @@ typedef struct cs_tile_output {
   const cs_pyramid *pyramid;
   celspan_file_desc file; /* the file of every tile */
   celspan_coding coding;  /* the coding of the file; resolved */
-  bool skips_empty;
+  bool skips_empty, is_sparse;
   unsigned char empty[16]; /* the coded pixel of an empty tile */
   cs_tile_known known;
   atomic_uint_fast64_t written, linked, skipped; /* tiles */

@@ -220,6 +220,7 @@ celspan_status cs_tile_render_run(cs_tile_render *render) {
   coding.space = render->frame->space;
   file.coding = &coding;
   cs_tile_output_init(&render->output, render->context, render->pyramid, &file);
+  render->output.is_sparse = render->is_sparse;
   if (render->skips_empty)
     cs_tile_output_skip(&render->output, render->background);
   render->threads = choose_threads(render);

@@ -34,6 +34,7 @@ typedef struct cs_tile_render {
   cs_tile_log *log;    /* open */
   int32_t workers;     /* 0: one for each processor */
   bool skips_empty;    /* omits tiles that show only the background */
+  bool is_sparse;      /* omits tiles of one colour, in a coarser tile of that colour */
   float background[4]; /* linear, premultiplied */
   /* Renders the frame, or another size or crop of it, into a sink. */
   celspan_status (*draw)(void *user, const celspan_frame_desc *frame, const celspan_sink *sink);
