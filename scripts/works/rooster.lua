@@ -1,6 +1,9 @@
 -- Cut-paper morning: a rooster of scraps calls for the sun until he falls to pieces, and the sun
 -- keeps his face. All papers are drawn here, with scissors of numbers; poses are held for threes.
+local papers = require "stage.papers"
 local score = require "sound.score"
+
+local fibres, printed, torn = papers.fibres, papers.printed, papers.torn
 
 local set = parameters { grain = { 0.02, min = 0, max = 0.3 } }
 
@@ -8,20 +11,6 @@ local FONT = "../type/block.ttf"
 local SMOOTH, FAST, OVER = "inOutSine", "outCubic", "outBack"
 
 -- ---------------------------------------------------------------- papers
-
---- Paper with fibres, from a darker to a lighter colour.
-local function fibres(dark, light, size)
-  return noise { kind = "fractal", size = size or 60, octaves = 5, gain = 0.6,
-    colours = { dark, light } }
-end
-
---- Printed paper: lines of art on a ground, in pieces of w by h.
-local function printed(ground, w, h, art, degrees)
-  local a = math.rad(degrees or 0)
-  local c, s = math.cos(a), math.sin(a)
-  return pattern { art = rect { 0, 0, w, h, fill = ground } | art, box = { 0, 0, w, h },
-    matrix = { c, -s, 0, s, c, 0, 0, 0, 1 } }
-end
 
 local function words(list, size, colour)
   local lines = {}
@@ -50,15 +39,6 @@ local KRAFT = fibres("#a67c4e", "#cba678", 30)
 local MARBLE = noise { kind = "turbulence", size = 90, octaves = 4,
   colours = { "#f7e2c0", "#e2703a", "#7a2320" } }
 local WHITE, BLACK = fibres("#efe6d2", "#fffaf0"), fibres("#15110f", "#38302b")
-
---- A shape, torn out of paper, with its white edge and its shadow on what lies below.
-local function torn(shape, paper, seed)
-  local edge = shape:outline { width = 5, fill = "#fdf8ec", only = true }
-    :boil { amount = 2.4, grain = 30, frame = 0, seed = seed }
-  local inner = shape:boil { amount = 1.6, grain = 24, frame = 0, seed = seed + 50 }
-  return (edge | inner:paint(paper)):shadow { offset = { 5, 8 }, blur = 9, colour = "#1a0f14",
-    opacity = 0.5 }
-end
 
 -- ---------------------------------------------------------------- the rooster, about his breast
 
@@ -176,12 +156,12 @@ end
 -- ---------------------------------------------------------------- letters that were cut out
 
 local function letters(text_, from, x, y, step)
-  local list, papers = {}, { { YELLOW, "#3a1710" }, { WHITE, "#c0392b" }, { RED, "#fff6dc" },
+  local list, tiles = {}, { { YELLOW, "#3a1710" }, { WHITE, "#c0392b" }, { RED, "#fff6dc" },
     { NAVY, "#fbd768" } }
   for i = 1, #text_ do
     local letter = text_:sub(i, i)
     if letter ~= " " then
-      local paper = papers[1 + (i * 3 + #text_) % 4]
+      local paper = tiles[1 + (i * 3 + #text_) % 4]
       local tile = torn(polygon { { -36, -40 }, { 34, -44 }, { 38, 38 }, { -32, 44 } }, paper[1], i)
       local glyph = text { letter, 0, 26, font = FONT, size = 72, align = "centre",
         variations = { wght = 900 }, fill = paper[2] }
