@@ -143,7 +143,8 @@ describe("the playground #plain", function()
       delete globalThis.VideoEncoder;
       const none = await fault(calls.save({ ...film, kind: "webm" }, all));
       return { webm: await text(webm), mp4: await text(mp4), aac: await text(aac),
-        apng: await text(apng), png: await text(png), odd, huge, none, hash: [...hash].map(one => one.toString(16).padStart(2, "0")).join("") };]=]
+        apng: await text(apng), png: await text(png), odd, huge, none,
+        hash: [...hash].map(one => one.toString(16).padStart(2, "0")).join("") };]=]
     for _, kind in ipairs { "webm", "mp4", "apng", "png" } do keep("film." .. kind, saved[kind]) end
     keep("aac.mp4", saved.aac)
   end)
