@@ -38,7 +38,7 @@ end
 
 local SIDE, GAP = 220, 14 -- of the square of a billion; between squares
 
---- The left edge of the square of a life at the end.
+--- The left edge of the square that a life becomes.
 local function place(i)
   local x = LEFT
   for k = 1, i - 1 do x = x + math.sqrt(beats_of(lives[k])) * SIDE + GAP end

@@ -27,7 +27,7 @@ local function shell(size)
   return egg(size, SHELL) | moon
 end
 
---- A zigzag from x0 to x1 at y; the area from it down to `low`, or up.
+--- The part of the plane between a zigzag at y, from x0 to x1, and the height `to`.
 local function jagged(x0, x1, y, to)
   local points, teeth = { { x0, to } }, 12
   for i = 0, teeth do

@@ -121,7 +121,7 @@ local function conveyor(time)
   return union(parts)
 end
 
---- The frame of the press: the part behind the belt, and the part above it.
+--- The post of the press, and the parts that come down.
 local back = box(-70, 150, -70, 140, 60, 420, steel)
 local plunger = box(-22, 38, 245, 44, 44, 190, { CREAM, "#f0d2b4", ROSE })
   | box(-62, -2, 191, 124, 124, 54, steel)

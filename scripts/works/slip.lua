@@ -104,7 +104,7 @@ local function bow_at(time)
   local pressed = motion.span(beat, 19, 2, "inOutCubic")
   local since = time - 21.2 * BEAT
   if since <= 0 then return 80 * pressed end
-  return 80 * math.exp(-5 * since) * math.cos(24 * since)
+  return 80 * math.exp(-5 * since) * math.cos(24 * since) * (1 - motion.span(beat, 21.6, 0.4))
 end
 
 -- ---------------------------------------------------------------- the picture
