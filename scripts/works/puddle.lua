@@ -206,7 +206,7 @@ end
 
 return film { title = "The puddle", size = { 1280, 720 }, fps = 24, frames = 244, poster = "6.5s",
   sound = score.play(10, notes),
-  grain = { amount = set.grain, size = 1.6 },
+  grain = { amount = set.grain, size = 1.6, frame = 0 },
   frame = function(f)
     local t = f:twos()
     local pose, pole = pose_at(t)

@@ -250,5 +250,5 @@ return film { title = "Cut-paper morning", size = { 1280, 720 }, fps = 24, frame
       SUN:rotate(6 * t):translate(640, 800 - 530 * up), HILLS,
       union(list):translate(520, 420), FLOOR:translate(0, 30),
       called(FIRST, t, 4.2), called(SECOND, t, BURST + 0.4), called(THIRD, t, BURST + 0.5),
-      grain = { amount = set.grain, size = 1.8, frame = f:on(3) } }
+      grain = { amount = set.grain, size = 1.8, frame = 0 } }
   end }
