@@ -50,8 +50,9 @@ local arm = keys { { 0, { -30, -112, 8 } }, { 2.8, { -30, -112, 8 } },
   { 8.0, { -64, -92, -6 }, SMOOTH }, { 8.8, { -66, -92, 4 }, SMOOTH }, { 9.2, { -60, -92, -10 } },
   { 9.6, { -70, -90, 2 }, OVER } }
 
---- Which way the child looks; between 1 and -1 it turns round.
-local facing = keys { { 3.8, 1 }, { 3.96, -1, SMOOTH }, { 4.5, -1 }, { 4.66, 1, SMOOTH } }
+--- Which way the child looks: it turns round between 1 and -1, and is never thinner than a child.
+local facing = keys { { 3.8, 1 }, { 3.86, 0.6 }, { 3.87, -0.6 }, { 3.96, -1 }, { 4.5, -1 },
+  { 4.56, -0.6 }, { 4.57, 0.6 }, { 4.66, 1 } }
 local shut = { { 1.2, 1.3 }, { 3.4, 3.5 }, { 4.2, 4.3 }, { 6.15, 6.27 }, { 6.4, 6.5 },
   { 7.44, 7.75 }, { 9.2, 9.3 } }
 local inside_out = keys { { 6.98, 0 }, { 7.02, -0.15 }, { 7.12, 1, OVER } }
