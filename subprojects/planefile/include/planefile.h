@@ -9,6 +9,8 @@
  * part of a large plane is found by its heights, and bands are read one at a time. A file may hold
  * the frames of a film, each of which is a plane; what several of them have is in it once.
  *
+ * A nest is a plane with windows that show other planes: what reads a file takes its outer one.
+ *
  * Depends on the C library alone. No globals, no printing; every failure is a status. A plane does
  * not change once it is read, and threads share it; a drawer belongs to one thread.
  *
@@ -296,6 +298,8 @@ typedef struct planefile_info {
   bool varies;            /* there may be cells with programs */
   bool is_coded;          /* flat cells are 8-bit codes */
   planefile_grid grid;
+  uint32_t inner_count;  /* the planes that are in the same file, to be shown in this one */
+  uint32_t window_count; /* the places in this one where they are shown */
 } planefile_info;
 
 /* The bytes from the start that planefile_is needs. */
@@ -321,6 +325,9 @@ planefile_status planefile_read_next(const planefile_source *source, uint32_t fr
 /* NULL is ignored. */
 void planefile_plane_destroy(planefile_plane *plane);
 planefile_info planefile_plane_info(const planefile_plane *plane);
+/* The bytes of an inner plane, from 0, of the file: they are a plane file, and not examined yet. */
+void planefile_plane_inner(const planefile_plane *plane, uint32_t index, uint64_t *offset,
+                           uint64_t *size);
 /* A band, from the top; where it has not been read it has heights and nothing else. */
 const planefile_band *planefile_plane_band(const planefile_plane *plane, uint32_t index);
 

@@ -16,6 +16,10 @@
  *                    or its name
  *   payload of 'F'   frames a second (8) | of each frame, the offset of its index (8)
  *
+ *   a nest     magic (8) | version, numbers of planes and of windows (4 each) | sizes of the planes
+ *              (8 each) | windows: left, top, right, foot (8 each), plane (4) | checksum (4) |
+ *              the planes, each a file of its own
+ *
  * INVARIANT: all numbers are little endian, whatever the machine.
  */
 #pragma once
@@ -39,6 +43,12 @@ enum {
   PF_PICTURE_BYTES = 20, /* of a picture, before its code */
   PF_RATE_BYTES = 8,
   PF_FRAME_BYTES = 8,
+  PF_NEST_BYTES = 20, /* of a nest, before the sizes of its planes */
+  PF_SIZE_BYTES = 8,
+  PF_WINDOW_BYTES = 36,
+  PF_NEST_MOST = 1024,      /* planes of a nest, and windows of it */
+  PF_WINDOW_PART = 1 << 20, /* of a side of the frame: no window is smaller than one of them */
+  PF_NEST_VERSION = 1,
   PF_VERSION = 2,
   PF_OPAQUE = 1,       /* flags of the header: alpha is 1 everywhere; */
   PF_VARIES = 2,       /* cells may have programs; */
@@ -57,6 +67,7 @@ enum {
 };
 
 static const unsigned char pf_magic[8] = {'c', 'e', 'l', 'p', 'l', 'a', 'n', 'e'};
+static const unsigned char pf_nest_magic[8] = {'c', 'e', 'l', 'n', 'e', 's', 't', 's'};
 static const unsigned char pf_end_magic[8] = {'p', 'l', 'a', 'n', 'e', 'e', 'n', 'd'};
 
 static inline void pf_store_32(unsigned char *at, uint32_t number) {

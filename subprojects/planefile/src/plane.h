@@ -3,6 +3,7 @@
 
 #include "band.h"
 #include "codes.h"
+#include "nest.h"
 
 /* A band of another frame, from which one of this frame was made. */
 typedef struct pf_kept {
@@ -14,6 +15,7 @@ typedef struct pf_kept {
 struct planefile_plane {
   pf_memory memory;
   planefile_info info;
+  uint64_t *inner;     /* where each plane of its nest ends; NULL: it is in none */
   pf_band *bands;      /* info.band_count; those that were not read have no cells */
   planefile_cell base; /* cell 0 of all bands */
   bool has_base;

@@ -1,5 +1,6 @@
 /* Bytes of a file to a plane in memory.
  *
+ *   head of a nest --> its outer plane: all offsets below are in that
  *   trailer --> index --> bands at the heights that are wanted --> plane
  *        \--> frames --^  \--> index of the base --> its bands --^
  *
@@ -19,6 +20,7 @@ typedef struct reader {
   planefile_fault *fault; /* may be NULL */
   planefile_plane *plane;
   planefile_plane *before; /* a frame of the same file, whose bands may be taken; NULL: none */
+  uint64_t start, size;    /* the bytes of the plane in the file */
   uint64_t end;            /* offset of the trailer */
   uint64_t left;           /* bytes that the records that are still to be read may have */
   bool is_film, keeps;     /* keeps: what bands are made from */
@@ -35,7 +37,7 @@ typedef struct reader {
 static planefile_status fail_of(reader *r, planefile_status status, uint64_t offset,
                                 const char *subject, const char *reason) {
   if (r->fault) {
-    r->fault->offset = offset;
+    r->fault->offset = r->start + offset;
     snprintf(r->fault->reason, sizeof r->fault->reason, "%s%s", subject, reason);
   }
   return status;
@@ -70,7 +72,7 @@ static planefile_status fail_memory(reader *r, uint64_t offset) {
 }
 
 static planefile_status load(reader *r, uint64_t offset, void *bytes, size_t size) {
-  if (r->source->read(r->source->user, offset, bytes, size))
+  if (r->source->read(r->source->user, r->start + offset, bytes, size))
     return PLANEFILE_OK;
   return fail(r, PLANEFILE_READ_FAILED, offset, "cannot read");
 }
@@ -78,7 +80,42 @@ static planefile_status load(reader *r, uint64_t offset, void *bytes, size_t siz
 /* ---------------------------------------------------------------- the ends of the file */
 
 bool planefile_is(const void *bytes, size_t size) {
-  return size >= sizeof pf_magic && memcmp(bytes, pf_magic, sizeof pf_magic) == 0;
+  return size >= sizeof pf_magic && (memcmp(bytes, pf_magic, sizeof pf_magic) == 0 ||
+                                     memcmp(bytes, pf_nest_magic, sizeof pf_magic) == 0);
+}
+
+/* If the file is a nest, its outer plane is what is read. */
+static planefile_status enter_nest(reader *r) {
+  size_t size;
+  unsigned char start[PF_NEST_BYTES];
+  const pf_memory *memory = &r->plane->memory;
+  planefile_info *info = &r->plane->info;
+  TRY(load(r, 0, start, sizeof start));
+  if (memcmp(start, pf_nest_magic, sizeof pf_nest_magic) != 0)
+    return PLANEFILE_OK;
+  const char *reason = pf_nest_begin(start, r->size, &size);
+  if (reason)
+    return refuse(r, 0, reason);
+  uint32_t planes = pf_load_32(start + 12);
+  r->bytes = pf_grow(memory, NULL, 1, &r->capacity, size);
+  r->plane->inner = pf_make(memory, sizeof *r->plane->inner, planes);
+  info->inner_count = planes - 1;
+  info->window_count = pf_load_32(start + 16);
+  if (!r->bytes || !r->plane->inner)
+    return fail_memory(r, 0);
+  TRY(load(r, 0, r->bytes, size));
+  reason = pf_nest_check(r->bytes, size, r->size, r->plane->inner);
+  if (reason)
+    return refuse(r, 0, reason);
+  r->start = size;
+  r->size = r->plane->inner[0] - size;
+  return PLANEFILE_OK;
+}
+
+static planefile_status refuse_short(reader *r) {
+  if (r->size < PF_HEADER_BYTES + PF_TRAILER_BYTES)
+    return refuse(r, 0, "the file is too short for a plane file");
+  return PLANEFILE_OK;
 }
 
 /* Whether flags are those of a plane: only cells that may vary show pictures. */
@@ -90,10 +127,11 @@ static bool are_flags(uint32_t flags) {
 static planefile_status load_header(reader *r) {
   unsigned char header[PF_HEADER_BYTES];
   planefile_info *info = &r->plane->info;
-  if (r->source->size < PF_HEADER_BYTES + PF_TRAILER_BYTES)
-    return refuse(r, 0, "the file is too short for a plane file");
+  TRY(refuse_short(r));
+  TRY(enter_nest(r));
+  TRY(refuse_short(r));
   TRY(load(r, 0, header, sizeof header));
-  if (!planefile_is(header, sizeof header))
+  if (memcmp(header, pf_magic, sizeof pf_magic) != 0)
     return refuse(r, 0, "this is not a plane file");
   if (pf_load_32(header + 36) != pf_crc32c(0, header, 36))
     return refuse(r, 0, "the checksum of the header is wrong");
@@ -119,10 +157,10 @@ static planefile_status load_header(reader *r) {
 /* *last: the offset of the last record, which is the index, or the frames of a film. */
 static planefile_status load_trailer(reader *r, uint64_t *last) {
   unsigned char trailer[PF_TRAILER_BYTES];
-  r->end = r->source->size - PF_TRAILER_BYTES;
+  r->end = r->size - PF_TRAILER_BYTES;
   TRY(load(r, r->end, trailer, sizeof trailer));
   if (memcmp(trailer, pf_end_magic, sizeof pf_end_magic) != 0 ||
-      pf_load_64(trailer + 16) != r->source->size)
+      pf_load_64(trailer + 16) != r->size)
     return refuse(r, r->end, "the file does not end where it should");
   if (pf_load_32(trailer + 28) != pf_crc32c(0, trailer, 28) || pf_load_32(trailer + 24) != 0)
     return refuse(r, r->end, "the checksum of the trailer is wrong");
@@ -502,6 +540,7 @@ static planefile_status read_frame(reader *r, uint32_t frame, int32_t top, int32
                                    planefile_plane **out) {
   pf_memory memory = pf_memory_of(r->source->resize, r->source->resize_user);
   *out = NULL;
+  r->size = r->source->size;
   if (top < 0 || top >= foot || foot > PLANEFILE_SIDE)
     return fail(r, PLANEFILE_BAD_ARGUMENT, 0, "there are no such heights");
   r->plane = pf_make(&memory, sizeof *r->plane, 1);
@@ -565,7 +604,14 @@ void planefile_plane_destroy(planefile_plane *plane) {
   for (uint32_t i = 0; plane->kept && i < plane->info.band_count; i++)
     free_kept(&memory, &plane->kept[i]);
   pf_free(&memory, plane->kept, sizeof *plane->kept, plane->info.band_count);
+  pf_free(&memory, plane->inner, sizeof *plane->inner, (size_t)plane->info.inner_count + 1);
   pf_free(&memory, plane, sizeof *plane, 1);
+}
+
+void planefile_plane_inner(const planefile_plane *plane, uint32_t index, uint64_t *offset,
+                           uint64_t *size) {
+  *offset = plane->inner[index];
+  *size = plane->inner[index + 1] - *offset;
 }
 
 planefile_info planefile_plane_info(const planefile_plane *plane) { return plane->info; }

@@ -120,6 +120,22 @@ static void read_on(const planefile_source *source, uint32_t frame) {
   planefile_plane_destroy(plane);
 }
 
+/* The planes in a nest, which are parts of the file behind its head; each may be anything. */
+static void use_inner(const memory_file *file, const planefile_plane *outer) {
+  uint64_t offset, size, before = PF_NEST_BYTES;
+  for (uint32_t i = 0; i < planefile_plane_info(outer).inner_count; i++) {
+    planefile_plane *plane = NULL;
+    planefile_plane_inner(outer, i, &offset, &size);
+    demand(offset >= before && size <= file->size - offset, "a plane outside the file");
+    before = offset + size;
+    memory_file part = {.bytes = file->bytes + offset, .size = (size_t)size};
+    planefile_source source = memory_source(&part);
+    if (planefile_read(&source, 0, PLANEFILE_SIDE, &plane, NULL) == PLANEFILE_OK)
+      check_crop(plane, 24, PLANEFILE_AREA);
+    planefile_plane_destroy(plane);
+  }
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   if (size == 0)
     return 0;
@@ -137,6 +153,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
       PLANEFILE_OK) {
     demand(m.peak <= 128 * 1024 + 600 * file.size, "memory that nothing pays for");
     use_plane(plane, pf_crc32c(0, data, size));
+    use_inner(&file, plane);
     planefile_plane_destroy(plane);
   } else {
     demand(fault.offset <= file.size && fault.reason[0] != '\0', "a refusal without a reason");

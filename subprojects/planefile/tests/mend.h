@@ -3,7 +3,7 @@
  */
 #pragma once
 
-#include "../src/layout.h"
+#include "../src/nest.h"
 #include "support.h"
 
 static inline void mend_header(memory_file *file) {
@@ -70,8 +70,35 @@ static inline void mend_film(memory_file *file, uint64_t film) {
   mend_record(file, film);
 }
 
+static inline void mend_sums(memory_file *file);
+
+/* Returns whether the file begins as a nest. All of its bytes become those of its planes. */
+static inline bool mend_nest(memory_file *file) {
+  size_t head;
+  if (file->size < PF_NEST_BYTES || memcmp(file->bytes, pf_nest_magic, 8) != 0)
+    return false;
+  pf_store_32(file->bytes + 8, PF_NEST_VERSION);
+  if (pf_nest_begin(file->bytes, file->size, &head))
+    return true;
+  size_t left = file->size - head;
+  unsigned char *size = file->bytes + PF_NEST_BYTES;
+  for (uint32_t i = pf_load_32(file->bytes + 12); i > 0; i--, size += PF_SIZE_BYTES) {
+    if (pf_load_64(size) > left || i == 1)
+      pf_store_64(size, left);
+    memory_file plane = {.bytes = file->bytes + file->size - left,
+                         .size = (size_t)pf_load_64(size)};
+    mend_sums(&plane);
+    left -= plane.size;
+  }
+  pf_store_32(file->bytes + head - PF_CHECK_BYTES,
+              pf_crc32c(0, file->bytes, head - PF_CHECK_BYTES));
+  return true;
+}
+
 /* All records that are named, header and trailer. */
 static inline void mend_sums(memory_file *file) {
+  if (mend_nest(file))
+    return;
   if (file->size < PF_HEADER_BYTES + PF_TRAILER_BYTES)
     return;
   mend_header(file);

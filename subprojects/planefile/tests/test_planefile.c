@@ -1067,7 +1067,141 @@ static void test_no_output(void) {
   written_free(&w);
 }
 
+/* ---------------------------------------------------------------- nests */
+
+enum { NEST_PLANES = 3, NEST_WINDOWS = 2 };
+enum { NEST_HEAD = PF_NEST_BYTES + PF_SIZE_BYTES * NEST_PLANES + PF_WINDOW_BYTES * NEST_WINDOWS };
+enum { NEST_WINDOW = PF_NEST_BYTES + PF_SIZE_BYTES * NEST_PLANES };
+
+static void mend_head(memory_file *nest) {
+  pf_store_32(nest->bytes + NEST_HEAD, pf_crc32c(0, nest->bytes, NEST_HEAD));
+}
+
+/* Three planes, of which the second is shown twice. */
+static memory_file write_nest(written planes[NEST_PLANES]) {
+  static const double box[4] = {0, 0.25, 1, 0.25 + 1.0 / (1 << 20)};
+  memory_file nest = {.bytes = calloc(1, NEST_HEAD + PF_CHECK_BYTES),
+                      .size = NEST_HEAD + PF_CHECK_BYTES};
+  memcpy(nest.bytes, pf_nest_magic, sizeof pf_nest_magic);
+  pf_store_32(nest.bytes + 8, 1);
+  pf_store_32(nest.bytes + 12, NEST_PLANES);
+  pf_store_32(nest.bytes + 16, NEST_WINDOWS);
+  for (size_t i = 0; i < NEST_WINDOWS; i++) {
+    unsigned char *window = nest.bytes + NEST_WINDOW + PF_WINDOW_BYTES * i;
+    for (size_t k = 0; k < 4; k++)
+      pf_store_double(window + 8 * k, box[k]);
+    pf_store_32(window + 32, 1);
+  }
+  for (uint64_t i = 0; i < NEST_PLANES; i++) {
+    planes[i] = random_written(i, 4, FLAT);
+    pf_store_64(nest.bytes + PF_NEST_BYTES + PF_SIZE_BYTES * i, planes[i].file.size);
+    memory_write(&nest, planes[i].file.bytes, planes[i].file.size);
+  }
+  mend_head(&nest);
+  return nest;
+}
+
+/* The outer plane is read, and each inner one where the nest says. */
+static void test_nests(void) {
+  written planes[NEST_PLANES];
+  memory_file nest = write_nest(planes);
+  planefile_plane *outer = read_plane(&nest);
+  const planefile_view view = {16, 16, 0, 0, 16, 16, PLANEFILE_AREA};
+  planefile_info info = planefile_plane_info(outer);
+  CHECK(planefile_is(nest.bytes, PLANEFILE_MAGIC_BYTES));
+  CHECK(info.inner_count == 2 && info.window_count == NEST_WINDOWS);
+  for (uint32_t i = 0; i < NEST_PLANES; i++) {
+    uint64_t offset, size;
+    planefile_plane *alone = read_plane(&planes[i].file), *inner = outer;
+    if (i > 0) {
+      planefile_plane_inner(outer, i - 1, &offset, &size);
+      memory_file part = {.bytes = nest.bytes + offset, .size = (size_t)size};
+      inner = read_plane(&part);
+    }
+    CHECK(draws_same(inner, alone, view));
+    if (i > 0)
+      planefile_plane_destroy(inner);
+    planefile_plane_destroy(alone);
+    written_free(&planes[i]);
+  }
+  planefile_plane_destroy(outer);
+  free(nest.bytes);
+}
+
+/* Every byte of the head, the outer plane and the length is examined. */
+static void test_damaged_nests(void) {
+  written planes[NEST_PLANES];
+  memory_file nest = write_nest(planes);
+  size_t size = nest.size, outer = NEST_HEAD + PF_CHECK_BYTES + planes[0].file.size;
+  for (size_t i = 0; i < outer; i++) {
+    nest.bytes[i] ^= (unsigned char)(1 + i % 255);
+    CHECK(is_refused(&nest, NULL));
+    nest.bytes[i] ^= (unsigned char)(1 + i % 255);
+  }
+  for (nest.size = 0; nest.size < size; nest.size++)
+    CHECK(is_refused(&nest, NULL));
+  for (size_t i = 0; i < NEST_PLANES; i++)
+    written_free(&planes[i]);
+  free(nest.bytes);
+}
+
+/* A number of the head is another one, and its checksum is right. */
+static bool is_nest_refused(const memory_file *nest, size_t at, uint64_t number, size_t size,
+                            const char *reason) {
+  memory_file other = {.bytes = malloc(nest->size), .size = nest->size};
+  memcpy(other.bytes, nest->bytes, nest->size);
+  for (size_t i = 0; i < size; i++)
+    other.bytes[at + i] = (unsigned char)(number >> 8 * i);
+  mend_head(&other);
+  bool is_good = is_refused(&other, reason);
+  free(other.bytes);
+  return is_good;
+}
+
+static void test_nest_reasons(void) {
+  static const char many[] = "the nest has more planes or windows than are allowed";
+  static const char window[] = "the nest has a window that is not allowed";
+  static const char large[] = "the planes of the nest are larger than the file";
+  static const struct {
+    size_t at, size;
+    uint64_t number;
+    const char *reason;
+  } changes[] = {{8, 4, 2, "the nest of planes has another version"},
+                 {12, 4, 0, many},
+                 {12, 4, PF_NEST_MOST + 1, many},
+                 {16, 4, PF_NEST_MOST + 1, many},
+                 {16, 4, PF_NEST_MOST, "the file is too short for the head of its nest"},
+                 {PF_NEST_BYTES, 8, UINT64_MAX, large},
+                 {PF_NEST_BYTES + 16, 8, 1, "there is something after the nest"},
+                 {NEST_WINDOW + 32, 4, 0, window},
+                 {NEST_WINDOW + 32, 4, NEST_PLANES, window}};
+  static const double edges[][2] = {{0, -1e-9}, {1, -1e-9}, {2, 1 + 1e-9},   {3, 1 + 1e-9},
+                                    {0, NAN},   {1, NAN},   {2, NAN},        {3, INFINITY},
+                                    {0, 1},     {3, 0.25},  {3, 0.25 + 1e-7}};
+  written planes[NEST_PLANES];
+  memory_file nest = write_nest(planes);
+  for (size_t i = 0; i < sizeof changes / sizeof *changes; i++)
+    if (!CHECK(is_nest_refused(&nest, changes[i].at, changes[i].number, changes[i].size,
+                               changes[i].reason)))
+      fprintf(stderr, "  change %zu\n", i);
+  for (size_t i = 0; i < sizeof edges / sizeof *edges; i++) {
+    uint64_t bits;
+    memcpy(&bits, &edges[i][1], sizeof bits);
+    size_t at = NEST_WINDOW + PF_WINDOW_BYTES + 8 * (size_t)edges[i][0];
+    if (!CHECK(is_nest_refused(&nest, at, bits, 8, window)))
+      fprintf(stderr, "  edge %zu\n", i);
+  }
+  memcpy(nest.bytes + NEST_HEAD + PF_CHECK_BYTES, pf_nest_magic, sizeof pf_nest_magic);
+  CHECK(is_refused(&nest, "this is not a plane file"));
+  for (size_t i = 0; i < NEST_PLANES; i++)
+    written_free(&planes[i]);
+  free(nest.bytes);
+}
+
 int main(void) {
+  test_nests();
+  test_damaged_nests();
+  test_nest_reasons();
   test_checksum();
   test_rounding();
   test_coded();

@@ -11,6 +11,7 @@
 
 static unsigned char *bytes; /* of the file */
 static size_t byte_count;
+static uint64_t file_size; /* of a nest more: inner planes are not there */
 static planefile_plane *plane;
 static planefile_fault fault;
 static unsigned char *pixels; /* of the latest view */
@@ -21,26 +22,32 @@ void *cs_wasm_resize(void *user, void *block, size_t old_size, size_t new_size);
 /* Where the page writes the bytes of the file; 0: no memory. */
 EXPORT("reserve") unsigned char *reserve(size_t size) {
   bytes = cs_wasm_resize(NULL, bytes, byte_count, size);
-  byte_count = bytes ? size : 0;
+  file_size = byte_count = bytes ? size : 0;
   return bytes;
 }
 
+/* After reserve: the file is longer than that. */
+EXPORT("extend") void extend(double size) { file_size = (uint64_t)size; }
+
 static bool read_bytes(void *user, uint64_t offset, void *out, size_t size) {
   (void)user;
+  if (offset > byte_count || size > byte_count - offset)
+    return false;
   __builtin_memcpy(out, bytes + offset, size);
   return true;
 }
 
 /* Reads a frame, from 0. NULL: it is read; otherwise the reason, which ends with a zero. */
 EXPORT("open") const char *open(uint32_t frame) {
-  const planefile_source source = {
-      .read = read_bytes, .size = byte_count, .resize = cs_wasm_resize};
+  const planefile_source source = {.read = read_bytes, .size = file_size, .resize = cs_wasm_resize};
   planefile_status status = planefile_read_next(&source, frame, &plane, &fault);
   return status == PLANEFILE_OK ? NULL : fault.reason;
 }
 
 EXPORT("width") double width(void) { return planefile_plane_info(plane).width; }
 EXPORT("height") double height(void) { return planefile_plane_info(plane).height; }
+
+EXPORT("is_opaque") bool is_opaque(void) { return planefile_plane_info(plane).is_opaque; }
 
 EXPORT("frames") uint32_t frames(void) { return planefile_plane_info(plane).frame_count; }
 EXPORT("rate") double rate(void) { return planefile_plane_info(plane).frames_second; }

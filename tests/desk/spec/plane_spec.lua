@@ -438,3 +438,78 @@ end }
     refused(2, "not of a picture", "convert a.png a.plane")
   end)
 end)
+
+describe("planes in a plane", function()
+  local TABLE = "x,y,width,height,plane\n"
+
+  before_each(function()
+    done("render film.lua -o film.plane")
+    done("render film.lua --frames 2 -o still.plane")
+    bench:write("inner.csv", TABLE .. "10,20,80,45,still.plane\n")
+    done("plane film.plane --windows inner.csv -o inner.plane")
+    bench:write("outer.csv", TABLE .. "0,0,160,90,inner.plane\n0.1,0.2,1.6,0.9,still.plane\n"
+      .. "150,85,10,5,./inner.plane\n")
+    done("plane film.plane --windows outer.csv -o outer.plane")
+  end)
+
+  it("are in one file, which is read to its end, and else is the outer one", function()
+    local told = done "info outer.plane"
+    assert.matches("frames 3\n.*windows 3\nplanes 3\n$", told)
+    assert.is_nil(done "info film.plane":match "windows")
+    assert.matches('"windows": *3', (done "info outer.plane --json"))
+    done("convert outer.plane a.png --frame 3")
+    done("convert film.plane b.png --frame 3")
+    assert.equal(bench:read "b.png", bench:read "a.png")
+    assert.is_true(bench:read "outer.plane":find(bench:read "inner.plane", 1, true) ~= nil)
+  end)
+
+  it("are refused where one is damaged, with its place", function()
+    local bytes = bench:read "outer.plane"
+    local at = bytes:find(bench:read "still.plane", 1, true) + 60
+    bench:write("a.plane", bytes:sub(1, at) .. "x" .. bytes:sub(at + 2))
+    done("convert a.plane a.png --frame 1") -- the outer one is whole
+    refused(4, "a.plane: plane 1: plane 1: frame 1: byte 40: band 0: the checksum is wrong",
+      "info a.plane")
+    refused(4, "a.plane: plane 1", "plane a.plane -o a.html")
+    bench:write("b.plane", bytes .. "x")
+    refused(4, "b.plane: byte 0: there is something after the nest", "info b.plane")
+    bench:write("c.plane", bytes:sub(1, 30) .. "x" .. bytes:sub(32))
+    refused(4, "c.plane: byte 0: the checksum of the head of the nest is wrong", "info c.plane")
+  end)
+
+  it("are at most sixteen in each other", function()
+    bench:write("0.plane", bench:read "still.plane")
+    for i = 1, 16 do
+      bench:write("a.csv", ("%s0,0,80,45,%d.plane\n"):format(TABLE, i - 1))
+      done("plane still.plane --windows a.csv -o %d.plane", i)
+    end
+    done("info 15.plane")
+    refused(4, "more than 16 planes are in each other", "info 16.plane")
+  end)
+
+  it("are not made of tables that are wrong", function()
+    for _, one in ipairs {
+      { 4, "a.csv: row 1: the window 150,0,16,9 is not in the frame, which is 160 x 90",
+        "150,0,16,9,still.plane" },
+      { 4, "a.csv: row 1: the window -1,0,16,9 is not", "-1,0,16,9,still.plane" },
+      { 4, "a.csv: row 1: the window 1,1,1e-05,1e-05 is not", "1,1,1e-5,1e-5,still.plane" },
+      { 4, "a.csv: line 2: column 'x' is 'left'", "left,0,16,9,still.plane" },
+      { 4, "a.csv: row 1: it has no 'plane'", "0,0,16,9," },
+      { 4, "none.plane: No such file", "0,0,16,9,none.plane" },
+      { 4, "film.lua: byte 0: this is not a plane file", "0,0,16,9,film.lua" },
+      { 2, "the output is the plane that is read", "0,0,16,9,new.plane" },
+    } do
+      bench:write("new.plane", bench:read "still.plane")
+      bench:write("a.csv", TABLE .. one[3] .. "\n")
+      refused(one[1], one[2], "plane film.plane --windows a.csv -o new.plane")
+      assert.equal(bench:read "still.plane", bench:read "new.plane")
+    end
+    refused(4, "outer.plane: this plane has windows already",
+      "plane outer.plane --windows outer.csv -o a.plane")
+    refused(2, "--windows: give a FILE", "plane film.plane --windows outer.csv -o a.html")
+    refused(2, "--windows: give a FILE", "plane --windows outer.csv -o a.plane")
+    bench:write("a.csv", TABLE .. ("0,0,16,9,still.plane\n"):rep(1025))
+    refused(4, "has 1025 rows; a plane has at most 1024 windows",
+      "plane film.plane --windows a.csv -o a.plane")
+  end)
+end)

@@ -51,6 +51,31 @@ local HELP = [[
   const steps = async () => {
 ]]
 
+-- A plane of one colour, with more in it.
+local FLAT = [[
+return film { size = { 160, 90 }, fps = 4, frames = %d, frame = function(f)
+  return rostrum { back = f.number == 1 and "%s" or "#ff0000", %s } end }
+]]
+local TABLE = "x,y,width,height,plane\n"
+local DOTS = [[cel((function()
+  local dots = {}
+  for i = 1, 6000 do dots[i] = circle { (i * 0.618 % 1) * 160, 60 + i % 97 * 0.3, 0.1 } end
+  return dots
+end)())]]
+
+-- Steps that show NAME.plane, 640 pixels wide, with `middle`, a place three windows deep.
+local NESTED = [[
+  const place = (at, side, length) => [0, 1].reduce(
+    inner => at + side * inner / length, at + side / 2);
+  const middle = [place(40, 1.6, 160), place(20, 0.9, 90)];
+  const shown = (colour, x, y) => page.until(`pixel(${x}, ${y}) === "${colour}"`);
+  const nested = async (name, attributes = "") => {
+    await show(`<celspan-film src="${name}.plane" width="640" ${attributes}></celspan-film>`);
+    await page.until("events[0].length");
+  };
+  const deep = () => page.get(`film.zoom(${middle}, 1e6, "instant"), 0`);
+]]
+
 local bench
 
 setup(function()
@@ -64,6 +89,42 @@ setup(function()
   end
 end)
 teardown(function() bench:remove() end)
+
+local function made(name, frames, colour, more)
+  bench:write(name .. ".lua", FLAT:format(frames, colour, more or ""))
+  local code, _, err = bench:celspan_inside("render %s.lua -o %s.plane", name, name)
+  assert(code == 0, err)
+end
+
+--- Puts planes into the windows of another one: rows of a table.
+local function joined(name, outer, rows)
+  bench:write("windows.csv", TABLE .. rows)
+  local code, _, err = bench:celspan_inside("plane %s.plane --windows windows.csv -o %s.plane",
+    outer, name)
+  assert(code == 0, err)
+end
+
+--- nest.plane: navy with more than 64 KB of dots; in it an orange window, one that is never near,
+--- and one of a hundredth, which is green; in that a maroon one, and in that a white one. Returns
+--- the bytes of the outer one.
+local function nest()
+  if bench:read "nest.plane" then return end
+  made("navy", 1, "#000080", DOTS)
+  made("orange", 2, "#ff8000")
+  made("green", 1, "#008000")
+  made("maroon", 1, "#800000")
+  made("white", 1, "#ffffff")
+  joined("third", "maroon", "40,20,1.6,0.9,white.plane\n")
+  joined("second", "green", "40,20,1.6,0.9,third.plane\n")
+  joined("nest", "navy", "100,5,50,28.125,orange.plane\n10,50,1.6,0.9,maroon.plane\n"
+    .. "40,20,1.6,0.9,second.plane\n")
+end
+
+--- The part of nest.plane that is a plane, as it is asked for.
+local function part(name)
+  local from = bench:read "nest.plane":find(bench:read(name .. ".plane"), 1, true) - 1
+  return ("nest.plane bytes=%d-%d"):format(from, from + #bench:read(name .. ".plane") - 1)
+end
 
 --- What the steps return, which have the names of HELP.
 local function see(steps)
@@ -348,6 +409,123 @@ describe("the element of planes #plain", function()
       return found;]=]
     assert.same({ { false, 1 }, { true, "pause", json.null }, { 0, "242,100,25,255" },
                   { "film.plane", true, "26", "loadeddata" } }, said)
+  end)
+
+  it("shows planes in planes, a million deep, and reads what is near alone", function()
+    nest()
+    local said = see(NESTED .. [=[
+      site.parts = true;
+      await nested("nest");
+      await shown("255,128,0,255", 500, 80);
+      const found = [[await page.get("pixel(5, 5)"), ...site.asked.splice(0)]];
+      for (const [factor, colour] of [[1, "0,0,128,255"], [100, "0,128,0,255"],
+                                      [1e4, "128,0,0,255"], [1e6, "255,255,255,255"]]) {
+        await page.get(`film.zoom(${middle}, ${factor}, "instant"), 0`);
+        await shown(colour, 320, 180);
+        found.push([await page.get("film.view.factor"), ...site.asked.splice(0)]);
+      }
+      await page.get(`film.zoom(${middle}, 1e15, "instant"), 0`);
+      await page.until("film.view.factor > 1e10 && film.view.factor < 1e11");
+      await shown("255,255,255,255", 320, 180);
+      await page.get("film.zoom(80, 45, 1, 'instant'), 0");
+      await shown("0,0,128,255", 5, 5);
+      await page.pause(0.1);
+      return [found, site.asked, await page.get("events[0]")];]=])
+    local outer = #bench:read "navy.plane" + 24 + 8 * 4 + 36 * 3
+    assert.same({ "0,0,128,255", "x.html", "listen.js", "celspan-film.js",
+      "nest.plane bytes=0-65535", ("nest.plane bytes=65536-%d"):format(outer - 1),
+      part "orange" }, said[1][1])
+    assert.same({ 1 }, said[1][2])
+    local near = { part "second", part "third", part "white" }
+    for i = 1, 3 do
+      assert.same(near[i], said[1][i + 2][2])
+      assert.near(1, said[1][i + 2][1] / 100 ^ i, 1e-9)
+      assert.is_nil(said[1][i + 2][3])
+    end
+    assert.same({ {}, { "loadeddata" } }, { said[2], said[3] })
+  end)
+
+  it("shows planes in planes of a server that sends whole files", function()
+    nest()
+    assert.same({ "x.html", "listen.js", "celspan-film.js", "nest.plane bytes=0-65535" },
+      see(NESTED .. [=[
+      await nested("nest");
+      await deep();
+      await shown("255,255,255,255", 320, 180);
+      return site.asked;]=]))
+  end)
+
+  it("plays planes in a still, which appear when they become large", function()
+    nest()
+    made("blue", 1, "#0000ff")
+    joined("still_nest", "blue", "80,5,50,28.125,orange.plane\n20,20,30,15,green.plane\n")
+    local said = see(NESTED .. [=[
+      await nested("still_nest");
+      await shown("255,128,0,255", 500, 80);
+      const half = await page.get("pixel(140, 110)");
+      await page.get("film.play(), 0");
+      for (const colour of ["255,0,0,255", "255,128,0,255", "255,0,0,255"])
+        await shown(colour, 500, 80);
+      await page.get("film.pause(), 0");
+      return [half, await page.get("[film.paused, film.currentTime, film.duration > 1e9]")];]=])
+    assert.matches("^0,6%d,12%d,255$", said[1])
+    assert.same({ true, 0, true }, said[2])
+  end)
+
+  it("forgets planes that are far away, and reads them again", function()
+    made("black", 1, "#000000")
+    made("green", 1, "#008000")
+    local rows = {}
+    for i = 1, 70 do
+      bench:write(("one%d.plane"):format(i), bench:read "green.plane")
+      rows[i] = ("%g,%g,10.5,10.5,one%d.plane\n"):format((i - 1) % 15 * 10.6,
+        (i - 1) // 15 * 10.6, i)
+    end
+    joined("many", "black", table.concat(rows) .. "80,70,3,3,green.plane\n")
+    local said = see(NESTED .. [=[
+      site.parts = true;
+      const asked = () => site.asked.filter(name => name.startsWith("many")).length;
+      const all = async count => {
+        for (let i = 0; i < 200 && asked() < count; i++) await page.pause(0.05);
+        await page.pause(0.2);
+        return asked();
+      };
+      await nested("many");
+      const found = [await all(71)];
+      await page.get("film.zoom(81.5, 71.5, 40, 'instant'), 0");
+      found.push(await all(72));
+      await page.get("film.zoom(80, 45, 1, 'instant'), 0");
+      found.push(await all(79));
+      return found;]=])
+    assert.same({ 71, 72, 79 }, said)
+  end)
+
+  it("refuses a damaged plane in a plane, and asks again for what did not come", function()
+    nest()
+    local bytes = bench:read "nest.plane"
+    local at = bytes:find(bench:read "white.plane", 1, true) + 60
+    bench:write("nothing.plane", "")
+    bench:write("torn.plane", bytes:sub(1, at) .. "x" .. bytes:sub(at + 2))
+    local said = see(NESTED .. [=[
+      site.parts = true;
+      const found = [];
+      await nested("torn");
+      await deep();
+      await page.until("events[0].length > 1");
+      found.push(await page.get("events[0][1]"));
+      await nested("nothing");
+      found.push(await page.get("events[0][0]"));
+      await nested("nest");
+      site.lost = true;
+      await deep();
+      await page.pause(0.2);
+      site.lost = false;
+      await shown("255,255,255,255", 320, 180);
+      found.push(await page.get("events[0]"));
+      return found;]=])
+    assert.same({ "error: This picture is damaged: band 0: the checksum is wrong.",
+      "error: This picture is damaged: the file is too short for a plane file.",
+      { "loadeddata" } }, said)
   end)
 
   it("says what is wrong with a file, in an alert and an event, for each player", function()

@@ -197,7 +197,9 @@ static const cs_option CONVERT[] = {
     {0}};
 
 static const cs_option PLANE[] = {
-    {"-o", "PAGE", &cs_argument_file, "the page to write, an HTML file"},
+    {"-o", "PAGE", &cs_argument_file, "the page to write, an HTML file; with --windows, a plane"},
+    {"--windows", "TABLE", &cs_argument_file,
+     "a CSV file of planes to be shown in FILE, with columns x, y, width, height and plane"},
     {"--title", "TEXT", &cs_argument_text, "the title of the page; default: the name of the file"},
     {0}};
 
@@ -448,8 +450,9 @@ const cs_verb cs_verbs[] = {
               "else. It moves and zooms with mouse, touch and keyboard, and draws the visible part "
               "at the size at which it is shown. The page of a film has all of its frames: the "
               "space bar plays it, and comma and full stop show the frame before and the next one. "
-              "Without FILE, -o celspan-film.js writes the element <celspan-film> for other pages.",
-     .own = PLANE, .options = "-o --title "},
+              "Without FILE, -o celspan-film.js writes the element <celspan-film> for other pages. "
+              "With --windows, -o is a plane file that has all planes of the table, too.",
+     .own = PLANE, .options = "-o --title --windows "},
     {"compare", "A B", 2, 2,
      .summary = "Compares two pictures or films: the exit code is 0 if they show the same, else 1.",
      .notes = "Prints the largest difference of coded values (0..1: sRGB, straight alpha), its "

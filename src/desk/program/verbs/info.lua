@@ -179,6 +179,10 @@ local function put_plane()
   for _, name in ipairs { "bands", "borders", "curves", "colours", "gradients", "pictures" } do
     facts:add(name, plane[name])
   end
+  if plane.planes > 0 then
+    facts:add("windows", plane.windows)
+    facts:add("planes", plane.planes)
+  end
 end
 
 -- ---------------------------------------------------------------- artwork

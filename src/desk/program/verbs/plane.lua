@@ -1,6 +1,7 @@
 --- celspan plane FILE -o PAGE: a page that shows a plane at any size, by the element celspan-film.
 --- The plane and the element, with its decoder as WebAssembly, are in the page, and the first frame
---- as a picture for browsers without script. Without a FILE, the script of the element alone.
+--- as a picture for browsers without script. Without a FILE, the script of the element alone. With
+--- --windows, a plane with planes in it (windows.lua).
 local program, request = ...
 local celspan = require "celspan"
 
@@ -8,6 +9,12 @@ local STILL_MOST = 1280 -- pixels of the longer side of the picture
 
 local page = request.output
 if not page then program.usage "-o is missing: give -o page.html" end
+if request.windows then
+  if not request[1] or not program.has_ending(page, ".plane") then
+    program.usage "--windows: give a FILE, and -o with a name that ends in .plane"
+  end
+  return program.part("windows.lua", program, request)
+end
 local path, is_script = request[1], program.has_ending(page, ".js")
 if path and not program.has_ending(page, ".html", ".htm") then
   program.usage("%s: a page is an HTML file: give it a name that ends in .html", page)
@@ -23,7 +30,7 @@ end
 local function filled(name, fields) return (program.text(name):gsub("@(%u+)@", fields)) end
 local player = filled("celspan-film.js", {
   VERSION = celspan._VERSION:match "%S+$", VIEWER = program.text "viewer.js",
-  DECODER = filled("decoder.js", { MODULE = module }),
+  NEST = program.text "nest.js", DECODER = filled("decoder.js", { MODULE = module }),
 })
 if not path then return program.save(page, player) end
 program.refuse_self(path, page)

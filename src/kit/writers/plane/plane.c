@@ -339,6 +339,20 @@ celspan_status cs_plane_choose(celspan_context *context, const char *name,
   return CS_GIVE(status, other, celspan_plane_unref, out);
 }
 
+celspan_status cs_plane_enter(celspan_context *context, const char *name,
+                              const celspan_plane *plane, uint32_t index, celspan_plane **out) {
+  celspan_plane *other;
+  uint64_t offset, size;
+  *out = NULL;
+  planefile_plane_inner(plane->plane, index, &offset, &size);
+  CS_TRY(create(context, &other));
+  other->whole = celspan_plane_ref(plane->whole ? plane->whole : (celspan_plane *)plane);
+  other->bytes = plane->bytes + offset;
+  other->size = (size_t)size;
+  celspan_status status = load_frame(context, name, other, 0);
+  return CS_GIVE(status, other, celspan_plane_unref, out);
+}
+
 celspan_status celspan_plane_frame(celspan_context *context, const celspan_plane *plane,
                                    int32_t frame, celspan_plane **out) {
   return cs_plane_choose(context, "plane", plane, frame, out);
@@ -361,7 +375,10 @@ bool cs_plane_accepts(const char *path) {
 
 cs_plane_facts cs_plane_count(const celspan_plane *plane) {
   planefile_info info = planefile_plane_info(plane->plane);
-  cs_plane_facts facts = {.parts = info.band_count, .pictures = info.picture_count};
+  cs_plane_facts facts = {.parts = info.band_count,
+                          .pictures = info.picture_count,
+                          .inner = info.inner_count,
+                          .shown = info.window_count};
   for (uint32_t i = 0; i < info.band_count; i++) {
     const planefile_band *band = planefile_plane_band(plane->plane, i);
     size_t gradients = 0;

@@ -12,6 +12,11 @@ bool cs_plane_accepts(const char *path);
 CELSPAN_CHECKED celspan_status cs_plane_choose(celspan_context *context, const char *name,
                                                const celspan_plane *plane, int32_t frame,
                                                celspan_plane **out);
+/* A plane that is in the file of another one, from 0 to its count of them. out: new. Errors: as of
+ * cs_plane_choose. */
+CELSPAN_CHECKED celspan_status cs_plane_enter(celspan_context *context, const char *name,
+                                              const celspan_plane *plane, uint32_t index,
+                                              celspan_plane **out);
 /* The depth of a plane, 8 or 16, where a file of pixels would have one. */
 static inline int32_t cs_plane_depth(celspan_depth depth) {
   return depth == CELSPAN_DEPTH_8 ? 8 : 16;
@@ -54,6 +59,7 @@ typedef struct cs_plane_facts {
   size_t borders, curves;
   size_t colours, gradients; /* cells of one colour; all other cells */
   size_t pictures;           /* the pictures of the file, of this frame and those before it */
+  size_t inner, shown;       /* planes in it, and the places where it shows them */
 } cs_plane_facts;
 cs_plane_facts cs_plane_count(const celspan_plane *plane);
 

@@ -16,6 +16,7 @@
 "use strict";
 @VIEWER@
 @DECODER@
+@NEST@
 // Tasks that are done one after the other, between two frames of the page: sooner than timers.
 const due = [], messages = globalThis.document && new MessageChannel();
 function soon(task) {
@@ -24,20 +25,12 @@ function soon(task) {
   messages.port2.postMessage(null);
 }
 
-// The bytes of a file, or of an element of the page that contains them in base64: #its-id.
-async function fetch_bytes(film, src, signal) {
-  if (src.startsWith("#")) {
-    const part = film.getRootNode().getElementById(src.slice(1));
-    if (!part) throw new Error(`${src}: the page has no such element.`);
-    return bytes_of(part.textContent);
-  }
-  try {
-    const answer = await fetch(src, { signal });
-    if (!answer.ok) throw new Error(`${answer.status} ${answer.statusText}`);
-    return new Uint8Array(await answer.arrayBuffer());
-  } catch (fault) {
-    throw new Error(`${src}: this file cannot be loaded: ${fault.message}.`);
-  }
+// A file, or an element of the page that contains it in base64: #its-id.
+function source_of(film, src, signal) {
+  if (!src.startsWith("#")) return new Source(src, signal);
+  const part = film.getRootNode().getElementById(src.slice(1));
+  if (!part) throw new Error(`${src}: the page has no such element.`);
+  return new Source(src, signal, bytes_of(part.textContent));
 }
 
 // ------------------------------------------------------------ the look
@@ -111,7 +104,8 @@ class CelspanFilm extends (globalThis.HTMLElement ?? class {}) {
 
   #root; #size;
   #life = null;       // of the file that is shown or loaded
-  #plane = null;      // null: it is not there yet, or cannot be shown
+  #planes = null;     // null: they are not there yet, or cannot be shown
+  #plane = null;      // the outer one
   #viewer = null;
   #pyramid = null;
   #is_drawn = false;  // whether there is a picture
@@ -120,7 +114,8 @@ class CelspanFilm extends (globalThis.HTMLElement ?? class {}) {
   #told = null;       // the frame of the latest event
   #told_view = "";
   #is_paused = true;
-  #started = null;    // when frame 0 was shown, once it plays
+  #time = 0;          // in seconds: of windows, which play on where the film begins again
+  #started = null;    // when that was 0, once it plays
   #tick = 0;          // the call in which it plays on
   #wish = {};         // what was asked for before the file was there: { time, view }
   #is_seen = true;    // not scrolled away
@@ -170,8 +165,8 @@ class CelspanFilm extends (globalThis.HTMLElement ?? class {}) {
   #close() {
     this.pause();
     this.#life?.abort();
-    this.#life = this.#plane = this.#viewer = this.#told = null;
-    [this.#is_drawn, this.#coming, this.#shown, this.#wish] = [false, 0, 0, {}];
+    this.#life = this.#planes = this.#plane = this.#viewer = this.#told = null;
+    [this.#is_drawn, this.#coming, this.#shown, this.#time, this.#wish] = [false, 0, 0, 0, {}];
   }
 
   async #load() {
@@ -180,8 +175,8 @@ class CelspanFilm extends (globalThis.HTMLElement ?? class {}) {
     this.#apply_attributes();
     if (!src) return;
     try {
-      const plane = await Plane.open(await fetch_bytes(this, src, life.signal));
-      if (!life.signal.aborted) this.#show(plane, life.signal);
+      const planes = await Planes.open(source_of(this, src, life.signal));
+      if (!life.signal.aborted) this.#show(planes, life.signal);
     } catch (fault) {
       if (!life.signal.aborted) this.#fail(fault);
     }
@@ -191,7 +186,7 @@ class CelspanFilm extends (globalThis.HTMLElement ?? class {}) {
   #fail(fault) {
     this.pause();
     this.#life.abort();
-    this.#plane = this.#viewer = null;
+    this.#planes = this.#plane = this.#viewer = null;
     this.#is_drawn = false;
     this.#part("box").hidden = true;
     this.#part("fault").textContent = fault.message;
@@ -220,11 +215,14 @@ class CelspanFilm extends (globalThis.HTMLElement ?? class {}) {
 
   // ---- what is shown
 
-  get #is_film() { return this.#plane?.frames > 1; }
+  get #is_film() { return this.#plane?.frames > 1 || this.#planes?.outer.windows.length > 0; }
 
-  #show(plane, signal) {
+  #show(planes, signal) {
+    const { plane } = planes.outer;
     const long = Math.max(plane.width, plane.height);
     const side = length => Math.max(1, Math.round(length / long * 2 ** TOP));
+    this.#planes = Object.assign(planes, { changed: () => this.#viewer?.hold(),
+      fail: fault => { if (!signal.aborted) this.#fail(fault); } });
     this.#plane = plane;
     this.#pyramid = { width: side(plane.width), height: side(plane.height), tile: TILE, overlap: 0,
                       tiles: [[LOWEST]] };
@@ -235,6 +233,7 @@ class CelspanFilm extends (globalThis.HTMLElement ?? class {}) {
     this.#viewer = show_tiles(this.#part("view"), this.#pyramid, {
       load: (...tile) => this.#load_tile(signal, ...tile), is_made: () => true,
       paint: this.#is_film ? (...place) => this.#paint(...place) : null,
+      largest: (x, y) => planes.largest(x / this.#pyramid.width, y / this.#pyramid.height),
       moved: () => this.#tell(), settled: () => {}, signal, keys: this.#part("box"),
       turns: event => !this.#is_film || event.ctrlKey || this.#root.activeElement !== null });
     this.#listen();
@@ -251,8 +250,9 @@ class CelspanFilm extends (globalThis.HTMLElement ?? class {}) {
 
   #paint(pencil, x, y, scale) {
     this.#draw(this.#life.signal, () => {
-      this.#plane.choose(this.#shown);
-      this.#plane.paint(pencil, this.#pyramid, x, y, scale);
+      const { width, height } = this.#pyramid;
+      const place = { left: x, upper: y, right: x + width * scale, lower: y + height * scale };
+      this.#planes.paint(pencil, place, this.#shown, this.#time);
       return true;
     });
   }
@@ -321,24 +321,27 @@ class CelspanFilm extends (globalThis.HTMLElement ?? class {}) {
 
   #play_on(now) {
     const { frames, rate } = this.#plane;
-    this.#started ??= now - this.#shown * 1000 / rate;
-    const frame = Math.floor((now - this.#started) / 1000 * rate + 1e-6);
+    this.#started ??= now - this.#time * 1000;
+    const time = (now - this.#started) / 1000, frame = Math.floor(time * rate + 1e-6);
     if (frame >= frames && !this.loop) {
       this.#choose(frames - 1, this.#is_seen);
       this.pause();
       this.#send("ended");
       return;
     }
-    this.#choose(frame % frames, this.#is_seen);
+    this.#choose(frame % frames, this.#is_seen, time);
     this.#tick = requestAnimationFrame(later => this.#play_on(later));
   }
 
-  // Shows a frame; where it is not seen it is not drawn.
-  #choose(frame, is_seen = true) {
+  // Shows a frame; where it is not seen it is not drawn. Windows show 24 frames a second, at least.
+  #choose(frame, is_seen = true, time = frame / (this.#plane.rate || 1)) {
+    const is_over = this.#planes.outer.windows.length > 0
+      && Math.floor(time * 24) !== Math.floor(this.#time * 24);
+    this.#time = time;
     this.#part("frame").value = frame + 1;
     this.#part("frame").setAttribute("aria-valuetext", `${frame + 1} of ${this.#plane.frames}`);
     this.#part("number").textContent = `${frame + 1} / ${this.#plane.frames}`;
-    if (frame === this.#shown) return;
+    if (frame === this.#shown && !is_over) return;
     this.#shown = frame;
     if (is_seen) this.#viewer.ask();
   }
@@ -380,7 +383,7 @@ class CelspanFilm extends (globalThis.HTMLElement ?? class {}) {
 
   get currentTime() {
     if (!this.#plane) return this.#wish.time ?? 0;
-    return this.#is_film ? this.#shown / this.#plane.rate : 0;
+    return this.#plane.frames > 1 ? this.#shown / this.#plane.rate : 0;
   }
   set currentTime(seconds) {
     const time = Number(seconds);

@@ -19,13 +19,15 @@ async function compile() {
 
 // A plane file in a memory of its own.
 class Plane {
-  static async open(bytes) {
+  // size: that of its file, of which a nest has more than its outer plane needs.
+  static async open(bytes, size = bytes.length) {
     compiled ??= compile();
     const plane = new Plane();
     plane.calls = (await WebAssembly.instantiate(await compiled)).exports;
     const address = plane.calls.reserve(bytes.length || 1); // an empty file is no plane
     if (!address) throw new Error("There is not enough memory for this picture.");
     new Uint8Array(plane.calls.memory.buffer, address, bytes.length).set(bytes);
+    plane.calls.extend(size);
     plane.choose(0);
     [plane.width, plane.height] = [plane.calls.width(), plane.calls.height()];
     [plane.frames, plane.rate] = [plane.calls.frames(), plane.calls.rate()];
@@ -39,6 +41,7 @@ class Plane {
     const reason = this.calls.open(frame);
     if (reason) throw new Error(`This picture is damaged: ${this.text_at(reason)}.`);
     this.frame = frame;
+    this.is_opaque = Boolean(this.calls.is_opaque());
   }
 
   // The text at an address, up to its zero.
@@ -55,16 +58,13 @@ class Plane {
     return new ImageData(new Uint8ClampedArray(buffer, address, 4 * columns * rows), columns, rows);
   }
 
-  // As much of the frame as the canvas shows: see `paint` of the viewer.
-  paint(pencil, pyramid, x, y, scale) {
-    const across = Math.max(1, Math.round(pyramid.width * scale));
-    const down = Math.max(1, Math.round(pyramid.height * scale));
-    const left = Math.max(0, -x), upper = Math.max(0, -y);
-    const columns = Math.min(across, pencil.canvas.width - x) - left;
-    const rows = Math.min(down, pencil.canvas.height - y) - upper;
-    pencil.clearRect(0, 0, pencil.canvas.width, pencil.canvas.height);
-    if (columns > 0 && rows > 0)
-      pencil.putImageData(this.draw(across, down, left, upper, columns, rows), x + left, y + upper);
+  // Draws as much of the frame as a canvas shows, of which it covers left..right and upper..lower.
+  paint(pencil, { left, upper, right, lower }) {
+    const { width, height } = pencil.canvas, x = Math.max(0, left), y = Math.max(0, upper);
+    const columns = Math.min(right, width) - x, rows = Math.min(lower, height) - y;
+    if (columns <= 0 || rows <= 0) return;
+    const part = [right - left, lower - upper, x - left, y - upper, columns, rows];
+    pencil.putImageData(this.draw(...part), x, y);
   }
 
   tile(pyramid, level, column, row) {

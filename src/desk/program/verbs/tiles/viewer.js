@@ -3,11 +3,13 @@
 //   const viewer = show_tiles(canvas, pyramid, { load, is_made, settled, moved })
 //   viewer.go(x, y, width)      flies to a centre and a width, both in pixels of the frame
 //   viewer.ask()                draws again, soon
+//   viewer.hold()               the same, within the limits, which have changed
 //
 // A page whose picture changes has `paint` instead of tiles: paint(pencil, x, y, scale) draws the
 // frame, of which (0, 0) lies at (x, y) of the canvas, at `scale` pixels of the canvas for each of its own.
 // A viewer that is a part of a page has `keys`, the element in which keys are heard instead of the
 // whole page; `turns(event)`, whether a turn of the wheel is its own; and `signal`, which ends it.
+// largest(x, y) is LARGEST where a place is in the middle.
 //
 // Three kinds of pixels are used:
 //
@@ -21,10 +23,10 @@
 // arrives. Every tile of the current level is drawn once: from its own image if that is loaded,
 // else from a part of the nearest coarser tile that is loaded. Where there is none, because the
 // window has become smaller, the finer tiles that are always kept are drawn instead of the level.
+const LARGEST = 8; // pixels of the page for each pixel of the frame
 function show_tiles(canvas, pyramid, hooks) {
   "use strict";
   const KEPT = 600, AT_ONCE = 8; // tiles in memory, tiles being loaded
-  const LARGEST = 8; // pixels of the page for each pixel of the frame
   const HALF_LIFE = 70; // milliseconds for half of the way to the goal
   const top = Math.ceil(Math.log2(Math.max(pyramid.width, pyramid.height, 1)));
   const pencil = canvas.getContext("2d");
@@ -201,8 +203,9 @@ function show_tiles(canvas, pyramid, hooks) {
   const whole = () => Math.max(pyramid.width / width, pyramid.height / height);
   const hold = (value, least, most) => Math.max(least, Math.min(most, value));
   function held({ x, y, scale }) {
-    return { x: hold(x, 0, pyramid.width), y: hold(y, 0, pyramid.height),
-             scale: hold(scale, 1 / LARGEST, 1.25 * Math.max(whole(), 1 / LARGEST)) };
+    const at = { x: hold(x, 0, pyramid.width), y: hold(y, 0, pyramid.height) };
+    const least = 1 / (hooks.largest?.(at.x, at.y) ?? LARGEST);
+    return { ...at, scale: hold(scale, least, 1.25 * Math.max(whole(), least)) };
   }
 
   // The smooth and efficient path between two views (van Wijk and Nuij): over long distances it
@@ -418,10 +421,11 @@ function show_tiles(canvas, pyramid, hooks) {
 
   measure();
   everything(true);
-  const resizes = new ResizeObserver(() => { goal = held(goal); ask(); });
+  const hold_view = () => { goal = held(goal); ask(); };
+  const resizes = new ResizeObserver(hold_view);
   resizes.observe(canvas);
   hooks.signal?.addEventListener("abort", () => resizes.disconnect());
   // The ratio changes with the browser's zoom.
   addEventListener("resize", ask, { signal: hooks.signal });
-  return { go, zoom, everything, tell, ask };
+  return { go, zoom, everything, tell, ask, hold: hold_view };
 }
