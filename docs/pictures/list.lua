@@ -137,7 +137,8 @@ local list = {
 
 -- The recipes of the cookbook, each with the frames that are shown: of a loop, or the only one.
 for _, recipe in ipairs {
-  { "cast_shadow", "all" }, { "drop_shadow", "all" }, { "neon_glow", "all" }, { "bloom", "all" },
+  { "cast_shadow", "all", "288x162", quality = "30" }, { "drop_shadow", "all" },
+  { "neon_glow", "all" }, { "bloom", "all" },
   { "light_wrap", "all" }, { "soft_vignette", 1, "360x202" }, { "time_lapse", "all", "320x180" },
   { "clock_wipe", "all" }, { "iris_out", "all" }, { "endless_zoom", "all" },
   { "split_screen", "all" }, { "green_screen", "all", "320x180", quality = "30" },
