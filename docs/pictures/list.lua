@@ -21,7 +21,7 @@ local SOUNDS, PLATES = { "docs/guide-film.md", "sounds" }, { "docs/cookbook.md",
 local list = {
   { name = "demo", script = "scripts/demo.lua", frame = 193, size = "800x450" },
   { name = "moving", script = "docs/pictures/moving.lua", loop = "all", size = "960x540",
-    fps = "24", most = 2200000 },
+    fps = "24", quality = "32", most = 2200000 },
   { name = "little-one", script = "scripts/film.lua", frame = 463, size = "400x225" },
   { name = "works/puddle", script = "scripts/works/puddle.lua", frame = 158, size = "960x540",
     still = "webp", allow = "scripts", set = "grain=0" },
