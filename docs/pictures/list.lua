@@ -165,7 +165,7 @@ for _, recipe in ipairs {
   { "glitch_title", "1-48", off = 24 }, { "logo_reveal", "all" },
   { "film_leader", "1-48", "320x180" },
   { "every_shape", "all" }, { "scarf_walk", "all" }, { "harvest_charts", "all" },
-  { "deep_title", "all", "480x270", quality = "40", most = 250000 }, { "cel_shading", "1-48" },
+  { "deep_title", "all", "480x270", quality = "24", most = 250000 }, { "cel_shading", "1-48" },
   { "boiling_lines", "all" }, { "paint_on_twos", "all" }, { "smear_frame", "all" },
   { "day_and_night", "all" },
 } do
