@@ -50,8 +50,8 @@ end
 local function digests(folder, text)
   bench:write("piped.lua", text)
   local out, ended_well = system.output(("root=$PWD && cd %s && '%s' render - --hash --frames 1 "
-    .. "--size 48x27 --fit stretch --allow \"$root\" --progress none < %s/piped.lua"):format(folder,
-    workbench.absolute, bench.folder))
+    .. "--size 48x27 --fit stretch --allow \"$root\" --allow \"$root/scripts\" --progress none "
+    .. "< %s/piped.lua"):format(folder, workbench.absolute, bench.folder))
   assert.is_true(ended_well, folder)
   return out
 end

@@ -1,6 +1,6 @@
 -- The scripts that ship: each makes a picture of its last frame. With --full also of frames
 -- between, with one worker, with the same last one; and its frames are checked: of films with more
--- than 24 frames a part, except with --all.
+-- than 8 frames a part, except with --all.
 
 package.path = "./scripts/?.lua;" .. package.path
 setmetatable(_G, { __index = require "celspan".names {} }) -- as in scripts that the program runs
@@ -12,8 +12,8 @@ local BINARY = workbench.binary
 local WIDTH, HEIGHT = 96, 54
 local SIZE = WIDTH * HEIGHT * 4 -- of a frame
 local HAS_ALL = (tonumber(os.getenv "CELSPAN_SCENES") or 300) >= 300
-local MOST_FRAMES = 24
-local MOST_CHECKED = HAS_ALL and math.huge or 24
+local MOST_FRAMES = 8
+local MOST_CHECKED = HAS_ALL and math.huge or 8
 
 local function run(arguments)
   local text, ended_well = system.output(("'%s' %s"):format(BINARY, arguments))
