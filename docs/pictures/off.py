@@ -7,6 +7,7 @@ A FILM is an animated WebP, a movie that ffmpeg reads, or pictures such as film.
 without a picture are not compared. Their lengths must be the same."""
 import itertools
 import os
+import re
 import subprocess
 import sys
 from PIL import Image, ImageChops
@@ -29,13 +30,9 @@ def frames(path, fps):
             times = round(film.info["duration"] * fps / 1000)
             yield from itertools.repeat(film.convert("RGBA"), times)
     elif "%" in path:
-        names = os.listdir(os.path.dirname(path))
-        left = sum(name.endswith(".png") for name in names)
-        number = 0
-        while left:
-            number += 1
+        names = sorted(os.listdir(os.path.dirname(path)))
+        for number in range(1, int(re.findall(r"\d+", names[-1])[-1]) + 1):
             is_there = os.path.exists(path % number)
-            left -= is_there
             yield Image.open(path % number).convert("RGBA") if is_there else None
     else:
         size = tuple(map(int, size_of(path)))
@@ -43,6 +40,8 @@ def frames(path, fps):
             "-pix_fmt", "rgba", "-"], stdout=subprocess.PIPE)
         while pixels := decoder.stdout.read(size[0] * size[1] * 4):
             yield Image.frombytes("RGBA", size, pixels)
+        if decoder.wait():
+            sys.exit(f"{path}: ffmpeg cannot read it")
 
 
 def off(a, b):
@@ -62,6 +61,8 @@ def main(first, second, fps):
             sys.exit(f"frame {count}: another length or size")
         if a and b:
             worst = max(worst, (off(a, b), count))
+    if count == 0:
+        sys.exit("neither has a frame")
     print(*worst)
 
 

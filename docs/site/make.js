@@ -8,6 +8,7 @@
 //
 // A complete script is a figure, <figure class="script" data-script="NAME">, with its name, its
 // code and, in <div class="stage">, its picture: the one of that name in the same section.
+const assert = require("assert");
 const { execFileSync } = require("child_process");
 const fs = require("fs");
 const path = require("path");
@@ -122,6 +123,8 @@ function stillOf(file) {
   const bytes = fs.readFileSync(file), at = bytes.indexOf("ANMF");
   const head = Buffer.from(bytes.subarray(0, 30)); // RIFF and VP8X
   const frame = bytes.subarray(at + 24, at + 8 + bytes.readUInt32LE(at + 4));
+  // Both sizes, less 1: the frame is as large as the canvas.
+  assert(bytes.subarray(at + 14, at + 20).equals(head.subarray(24)), file);
   head[20] &= 0x10; // its only feature is alpha
   head.writeUInt32LE(head.length + frame.length - 8, 4);
   return Buffer.concat([head, frame]);

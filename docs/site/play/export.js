@@ -55,8 +55,9 @@ function chunk(kind, ...numbers) {
   return bytes;
 }
 
-/** Numbers of some bytes each, the highest byte first: be(2, 1, 258) is 0, 1, 1, 2. */
-export const be = (size, ...numbers) => Uint8Array.from(numbers.flatMap(number =>
+/** Numbers, or lists of them, of some bytes each, the highest byte first: be(2, 1, [258]) is 0, 1, 1,
+ * 2. A long list is one argument, because engines limit the number of these. */
+export const be = (size, ...numbers) => Uint8Array.from(numbers.flat().flatMap(number =>
   Array.from({ length: size }, (_, i) => Math.floor(number / 256 ** (size - 1 - i)))));
 
 export const text = words => new TextEncoder().encode(words);

@@ -52,12 +52,12 @@ function trak(one, film, places) {
       box("minf", isVideo ? full("vmhd", 1, none(8)) : full("smhd", 0, none(4)),
         box("dinf", full("dref", 0, be(4, 1), full("url ", 1))),
         box("stbl", full("stsd", 0, be(4, 1), entry(one, film)),
-          full("stts", 0, be(4, chunks.length, ...chunks.flatMap((_, i) =>
+          full("stts", 0, be(4, chunks.length, chunks.flatMap((_, i) =>
             [1, Math.max(1, starts[i + 1] - starts[i])]))),
-          isVideo ? full("stss", 0, be(4, keys.length, ...keys)) : [],
+          isVideo ? full("stss", 0, be(4, keys.length, keys)) : [],
           full("stsc", 0, be(4, 1, 1, 1, 1)),
-          full("stsz", 0, be(4, 0, chunks.length, ...chunks.map(({ data }) => data.length))),
-          full("stco", 0, be(4, places.length, ...places))))));
+          full("stsz", 0, be(4, 0, chunks.length, chunks.map(({ data }) => data.length))),
+          full("stco", 0, be(4, places.length, places))))));
 }
 
 /** The parts of a file. video, audio: { chunks, config, description }; audio may be null. */
