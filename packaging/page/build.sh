@@ -85,7 +85,9 @@ sed "s/@VERSION@/$version/" "$top/packaging/page/npm/package.json.in" >"$folder/
 # What is linked in; FriBidi's licence (LGPL) wants a way to link another one, which is this script.
 cp "$top/LICENSE" "$folder/LICENSES"
 for library in lua5.4 harfbuzz fribidi libunibreak expat zlib; do
-  licence=$(cat "$build/libraries/sources/$library"*/{debian/copyright,LICENCE} 2>/dev/null) || true
+  names=(debian/copyright LICENCE)
+  [ "$library" != harfbuzz ] || names=(COPYING) # the other is of its tests and their fonts, too
+  licence=$(cd "$build"/libraries/sources/"$library"-*/ && cat "${names[@]}" 2>/dev/null) || true
   [ -n "$licence" ] || { echo "there is no licence of $library" >&2 && exit 1; }
   printf '\n======== %s\n\n%s\n' "$library" "$licence" >>"$folder/LICENSES"
 done
