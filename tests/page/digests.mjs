@@ -22,11 +22,12 @@ const frames_of = (text) => text.split(",").flatMap((part) => {
   return all;
 });
 
-/** The file of a path that was looked for, from the second file of Lua or from the disk. */
-const content_of = (name) => {
-  const own = name.slice(1);
+/** The file of a path that was looked for: from the second file of Lua, from the disk, or from the
+ * folder that a question allows. */
+const content_of = (name, allowed) => {
+  const own = name.replace(/^[/]+/, "");
   if (own in more) return more[own];
-  for (const place of [own, name])
+  for (const place of [own, name, `${allowed}/${own}`])
     if (fs.existsSync(place) && fs.statSync(place).isFile()) return fs.readFileSync(place);
   return undefined;
 };
@@ -49,7 +50,7 @@ const ask = async (script, options) => {
     let given = false, error;
     try { return answer(engine, script, options); } catch (caught) { error = caught; }
     for (const name of engine.missing()) {
-      const content = content_of(name);
+      const content = content_of(name, options["--allow"]);
       if (content !== undefined) engine.file(name, content);
       given ||= content !== undefined;
     }
