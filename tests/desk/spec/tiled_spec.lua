@@ -95,6 +95,17 @@ describe("a picture in tiles", function()
     assert.is_true(there ~= here and math.abs(there - here) < 0.05, there .. " " .. here)
   end)
 
+  it_reads("is another picture after a tile has been replaced", function()
+    cut()
+    film 'image { file = "p/scan.dzi" }'
+    render("kept.#.png", "--resume")
+    assert.are.equal(0, difference("kept.1.png", "scan.png"))
+    bench:write("new.png", bench:read(folder .. "/p/scan_files/10/7_3.png"))
+    assert(os.rename(folder .. "/new.png", folder .. "/p/scan_files/10/6_3.png"))
+    render("kept.#.png", "--resume")
+    assert.is_true(difference("kept.1.png", "scan.png") > 0)
+  end)
+
   it_reads("names a tile that is damaged, and all its tiles are files of the film", function()
     cut()
     film 'image { file = "p/scan.dzi" }'
@@ -103,6 +114,18 @@ describe("a picture in tiles", function()
     run("check %s/film.lua", folder)
     local files = run("check %s/film.lua --files", folder)
     assert.is_truthy(files:find("p/scan.dzi", 1, true) and files:find("files/10/6_3.png", 1, true))
+  end)
+
+  it_reads("has the tiles that there are as files, whatever its description says", function()
+    cut()
+    film 'image { file = "p/scan.dzi" }'
+    local text = bench:read(folder .. "/p/scan.dzi")
+    bench:write("p/scan.dzi", (text:gsub('Width="%d+"', 'Width="99999999999999999999"')))
+    local _, files = bench:shell(("timeout 20 '%s' check '%s/film.lua' --files")
+      :format(bench.absolute, folder))
+    for level = 0, 10 do
+      assert.is_truthy(files:find(("scan_files/%d/0_0.png"):format(level), 1, true))
+    end
   end)
 end)
 
@@ -149,7 +172,17 @@ describe("a description of tiles", function()
     bench:write("scan.dzi", GOOD)
     for _, field in ipairs { "source = { 0, 0, 1, 1 }", "smooth = true", 'layer = "a"' } do
       film(('rect { 0, 0, 9, 9, fill = picture { file = "scan.dzi", %s } }'):format(field))
-      assert.is_truthy(failure():find(field:match "%a+", 1, true))
+      assert.is_truthy(failure():find("one in tiles has no pixels", 1, true))
     end
+  end)
+
+  it_reads("is that of its image and size, whatever else it has", function()
+    cut()
+    film 'image { file = "p/scan.dzi" }'
+    local text = bench:read(folder .. "/p/scan.dzi")
+    bench:write("p/scan.dzi", (text:gsub("</Image>", '<DisplayRects><DisplayRect MinLevel="1" '
+      .. 'MaxLevel="2"><Rect X="0" Y="0" Width="5" Height="6"/></DisplayRect></DisplayRects>%0')))
+    render "other.png"
+    assert.are.equal(0, difference("other.png", "scan.png"))
   end)
 end)

@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <sys/stat.h>
 
+#include "base/open.h"
 #include "model/pictures/mip_levels.h"
 
 bool cs_tile_file_find(const cs_picture *picture, cs_tile_file tile, char path[CS_TILE_FILE_PATH]) {
@@ -14,6 +15,14 @@ bool cs_tile_file_find(const cs_picture *picture, cs_tile_file tile, char path[C
          snprintf(path, CS_TILE_FILE_PATH, "%s/%d/%d_%d.%s", picture->file, level, (int)tile.column,
                   (int)tile.row, tiles->ending) < CS_TILE_FILE_PATH &&
          lstat(path, &found) == 0 && S_ISREG(found.st_mode);
+}
+
+void cs_tile_file_hash(const cs_picture *picture, cs_hash *hash) {
+  char path[CS_TILE_FILE_PATH];
+  int count = cs_mip_levels_count(picture->tiles.width, picture->tiles.height);
+  for (int level = 0; level < count; level++)
+    if (snprintf(path, sizeof path, "%s/%d", picture->file, level) < CS_TILE_FILE_PATH)
+      cs_open_hash(hash, path);
 }
 
 celspan_status cs_tile_file_describe(celspan_context *context, const cs_picture *picture,

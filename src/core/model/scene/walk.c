@@ -4,6 +4,7 @@
 #include "model/colour/transfer_names.h"
 #include "model/pictures/configuration.h"
 #include "model/pictures/store.h"
+#include "model/pictures/tile_file.h"
 #include "model/scene/shift.h"
 
 /* Recursion ends: nesting is at most CS_SCENE_DEPTH. */
@@ -104,6 +105,8 @@ static void hash_file(cs_hash *hash, const cs_picture *picture) {
     return;
   }
   cs_open_hash(hash, picture->file);
+  if (picture->tiles.size > 0)
+    cs_tile_file_hash(picture, hash);
   hash_configuration(hash, picture);
 }
 

@@ -102,16 +102,11 @@ celspan_status cs_document_scan(cs_document *document, int64_t count) {
 
 /* ---------------------------------------------------------------- reading */
 
-static const char *local_name(const char *name) {
-  const char *blank = strrchr(name, ' ');
-  return blank ? blank + 1 : name;
-}
-
 static bool on_start(void *user, const char *name, const char *const *attributes, uint64_t line) {
   cs_document *document = user;
   document->attributes = attributes;
   document->line = line;
-  document->status = document->format->start(document, local_name(name));
+  document->status = document->format->start(document, cs_xml_local_name(name));
   return document->status == CELSPAN_OK;
 }
 
@@ -119,7 +114,7 @@ static bool on_end(void *user, const char *name, uint64_t line) {
   cs_document *document = user;
   document->line = line;
   if (document->format->end)
-    document->status = document->format->end(document, local_name(name));
+    document->status = document->format->end(document, cs_xml_local_name(name));
   return document->status == CELSPAN_OK;
 }
 

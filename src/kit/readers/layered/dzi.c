@@ -23,7 +23,7 @@ static int32_t whole_of(const char *text) {
   return number;
 }
 
-/* The names of its attributes are not those of its elements. */
+/* Only of the image and its size: other elements have a width, too. */
 static bool on_start(void *user, const char *name, const char *const *attributes, uint64_t line) {
   celspan_picture_tiles *tiles = user;
   const struct {
@@ -33,13 +33,16 @@ static bool on_start(void *user, const char *name, const char *const *attributes
                  {"Height", &tiles->height},
                  {"TileSize", &tiles->size},
                  {"Overlap", &tiles->overlap}};
-  (void)name, (void)line;
+  const char *element = cs_xml_local_name(name);
+  (void)line;
+  if (strcmp(element, "Image") != 0 && strcmp(element, "Size") != 0)
+    return true;
   for (; *attributes; attributes += 2) {
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
       if (strcmp(attributes[0], numbers[i].name) == 0)
         *numbers[i].number = whole_of(attributes[1]);
-    if (strcmp(attributes[0], "Format") == 0 && strlen(attributes[1]) < sizeof tiles->ending)
-      strcpy(tiles->ending, attributes[1]);
+    if (strcmp(attributes[0], "Format") == 0)
+      strcpy(tiles->ending, strlen(attributes[1]) < sizeof tiles->ending ? attributes[1] : "");
   }
   return true;
 }

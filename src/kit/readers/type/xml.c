@@ -1,8 +1,14 @@
 #include "readers/type/xml.h"
 
 #include <inttypes.h>
+#include <string.h>
 
 #include "readers/type/type_module.h"
+
+const char *cs_xml_local_name(const char *name) {
+  const char *blank = strrchr(name, ' ');
+  return blank ? blank + 1 : name;
+}
 
 celspan_status cs_xml_parse(celspan_context *context, const char *name, const char *purpose,
                             const char *bytes, size_t size, const cs_xml_handler *handler,

@@ -19,3 +19,5 @@ CELSPAN_CHECKED celspan_status cs_xml_parse(celspan_context *context, const char
                                             const char *purpose, const char *bytes, size_t size,
                                             const cs_xml_handler *handler,
                                             const celspan_status *failure);
+/* An element's name without its namespace. */
+const char *cs_xml_local_name(const char *name);

@@ -10,7 +10,7 @@ local KINDS = { lua = "module", ttf = "font", otf = "font", ttc = "font", otc = 
   mxf = "movie", ogv = "movie", ts = "movie", y4m = "movie",
   srt = "data", vtt = "data", xdts = "data", cube = "data", dat = "data", ocio = "data",
   ocioz = "data", dzi = "tiles" }
-local TILES_MOST = 1 << 18 -- of a picture; more are not looked for
+local LEVEL_MOST = 24 -- of a picture in tiles
 local CONTENTS = { folder = "painting", archive = "painting", psd = "painting", svg = "drawing" }
 
 --- The kind of a file: by its ending, and otherwise by its content.
@@ -22,23 +22,13 @@ local function kind_of(path)
   return CONTENTS[kind] or kind
 end
 
---- Adds the names that tiles of a picture may have, smallest levels first.
+--- Adds the tiles of a picture.
 local function add_tiles(path, paths)
-  local file = path:lower():find "%.dzi$" and io.open(path, "rb")
-  local text = file and file:read(65536) or ""
-  if file then file:close() end
-  local function number(name) return tonumber(text:match(name .. '="(%d+)"')) or 0 end
-  local width, height, side = number "Width", number "Height", number "TileSize"
-  local ending, top, left = text:match 'Format="(%w+)"', 0, TILES_MOST
-  while 1 << top < math.max(width, height) do top = top + 1 end
-  for level = 0, ending and side > 0 and top or -1 do
-    local columns = ((width - 1) >> top - level) // side + 1
-    local rows = ((height - 1) >> top - level) // side + 1
-    for tile = 0, math.min(left, columns * rows) - 1 do
-      paths[#paths + 1] = ("%s_files/%d/%d_%d.%s"):format(path:sub(1, -5), level, tile % columns,
-        tile // columns, ending)
+  for level = 0, path:lower():find "%.dzi$" and LEVEL_MOST or -1 do
+    local folder = ("%s_files/%d"):format(path:sub(1, -5), level)
+    for _, name in ipairs(program.entries(folder) or {}) do
+      if name:find "^%d+_%d+%." then paths[#paths + 1] = folder .. "/" .. name end
     end
-    left = left - math.min(left, columns * rows)
   end
 end
 
