@@ -5,15 +5,16 @@
 //
 //   hash:x,y,width   the address, from the beginning     key:+     wheel:x,y,delta     click:ID     place:NAME
 //   drag:x0,y0,x1,y1                                     pinch:x,y,by     lose:PART     size:w,h
+//   hold:PART
 //
-// `lose` makes every tile fail to load whose name contains that part. Comments at the end give the
+// `lose` makes every tile fail to load whose name contains that part, and `hold` never arrive. Comments at the end give the
 // state of the page: its text, its address, how often it drew, and how many missing files it
 // requested.
 "use strict";
 const fs = require("fs"), path = require("path"), vm = require("vm");
 
 const [index, width, height, ratio, ...actions] = process.argv.slice(2);
-const folder = path.dirname(path.resolve(index)), lost = [];
+const folder = path.dirname(path.resolve(index)), lost = [], held = [];
 let size = { width: +width, height: +height }, now = 0, missing = 0, drawings = 0;
 let frames = [], arrivals = [], draws = [], address = "";
 
@@ -37,6 +38,7 @@ const pencil = {
 class Image {
   set src(name) {
     const file = path.join(folder, decodeURIComponent(name));
+    if (held.some(part => name.includes(part))) return;
     arrivals.push(() => {
       if (lost.some(part => name.includes(part))) return this.onerror();
       if (!fs.existsSync(file)) { missing++; return this.onerror(); }
@@ -108,13 +110,14 @@ const ACTIONS = {
 
 for (const action of actions.filter(text => text.startsWith("hash:"))) world.location.hash = "#" + action.slice(5);
 for (const action of actions.filter(text => text.startsWith("lose:"))) lost.push(action.slice(5));
+for (const action of actions.filter(text => text.startsWith("hold:"))) held.push(action.slice(5));
 vm.createContext(world);
 for (const [, script] of fs.readFileSync(index, "utf8").matchAll(/<script>([^]*?)<\/script>/g))
   vm.runInContext(script, world);
 settle();
 for (const action of actions) {
   const [, name, rest] = /^(\w+):(.*)$/.exec(action);
-  if (name === "hash" || name === "lose") continue;
+  if (name === "hash" || name === "lose" || name === "hold") continue;
   ACTIONS[name](...(name === "key" ? [rest] : rest.split(",")));
   settle();
 }

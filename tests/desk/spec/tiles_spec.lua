@@ -616,6 +616,13 @@ describe("the page", function()
     assert.is_true(tonumber(opaque) > 3) -- every place is still drawn
   end)
 
+  it_in_node("shows the kept tiles that there are while a coarser one has not arrived", function()
+    make_tiles ""
+    local text = draw_in_node("60 37 1", "hold:_files/7/ lose:_files/9/0_0 hash:1200,750,2400")
+    assert.is_truthy(text:find("_files/9/1_0", 1, true), text)
+    assert.is_nil(text:find("_files/9/0_0", 1, true))
+  end)
+
   local it_in_a_browser = present.program("chromium", "python3") and it or pending
 
   --- The drawing of the page at a place, as a PNG file: its canvas, without the buttons over it.

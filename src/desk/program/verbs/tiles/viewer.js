@@ -142,16 +142,23 @@ function show_tiles(canvas, pyramid, hooks) {
       on_x(x1) - at_x, on_y(y1) - at_y);
   }
 
+  // Draws a tile's area from the nearest one that is ready, from level `begin` on; returns whether
+  // there is one.
+  function draw_ready(level, column, row, begin) {
+    const up = 2 ** (level - begin);
+    const loaded = nearest(begin, Math.floor(column / up), Math.floor(row / up),
+      (...at) => tile_at(...at).is_ready);
+    if (loaded) draw(loaded, level, column, row);
+    return loaded !== null;
+  }
+
   // Returns whether there was something to draw, or never will be.
   function draw_place(level, column, row, distance) {
     const is_usable = (...at) => hooks.is_made(...at) && !tile_at(...at).is_lost;
     const best = nearest(level, column, row, is_usable);
     if (!best) return true;
     want(best, best.level * 1e6 + distance);
-    const loaded = nearest(best.level, Math.floor(column / 2 ** (level - best.level)),
-      Math.floor(row / 2 ** (level - best.level)), (...at) => tile_at(...at).is_ready);
-    if (loaded) draw(loaded, level, column, row);
-    return loaded !== null;
+    return draw_ready(level, column, row, best.level);
   }
 
   function draw_all() {
@@ -177,14 +184,15 @@ function show_tiles(canvas, pyramid, hooks) {
           Math.hypot((column + 0.5) * side - view.x, (row + 0.5) * side - view.y) / side) && is_full;
     const kept = kept_tiles();
     for (const tile of kept) want(tile, -1);
-    if (!is_full && kept[0]?.level > level && kept.every(tile => tile.is_ready)) draw_only(kept);
+    const is_settled = kept.every(tile => tile.is_ready || tile.is_lost);
+    if (!is_full && kept[0]?.level > level && is_settled) draw_only(kept);
     fetch_more();
     forget_old();
   }
 
   function draw_only(some) {
     pencil.clearRect(0, 0, canvas.width, canvas.height);
-    for (const tile of some) draw(tile, tile.level, tile.column, tile.row);
+    for (const tile of some) draw_ready(tile.level, tile.column, tile.row, tile.level);
   }
 
   // The finest level with few tiles is always kept, so that every view shows something.
