@@ -375,8 +375,8 @@ static celspan_status fill_from_below(celspan_context *context, cs_picture_entry
   return CELSPAN_OK;
 }
 
-static celspan_status make(celspan_context *context, cs_picture_entry *entry, int level,
-                           int32_t column, int32_t row, cs_picture_block **out) {
+static celspan_status make_one(celspan_context *context, cs_picture_entry *entry, int level,
+                               int32_t column, int32_t row, cs_picture_block **out) {
   cs_picture_block *block;
   CS_TRY(cs_store_create_block(context, entry, level, column, row, &block));
   celspan_status status = cs_store_add_texels(context, block);
@@ -391,6 +391,7 @@ static celspan_status make(celspan_context *context, cs_picture_entry *entry, in
     return status;
   }
   describe(entry, block);
+  /* It has no codes of the column on its right, because that block is not made with it. */
   block->is_coded = block->is_coded && block->column + 1 == columns_of(entry, 0);
   *out = cs_store_insert(block, true);
   return CELSPAN_OK;
@@ -405,7 +406,7 @@ static celspan_status load(celspan_context *context, cs_picture_entry *entry, in
     return CELSPAN_OK;
   bool is_read = level <= entry->base && entry->tiled_levels == 0;
   return is_read ? run_pass(context, entry, level, column, row, out)
-                 : make(context, entry, level, column, row, out);
+                 : make_one(context, entry, level, column, row, out);
 }
 
 static bool is_inside(const cs_picture_entry *entry, int level, int32_t column, int32_t row) {

@@ -60,7 +60,8 @@ struct cs_picture_entry {
   cs_picture_entry *next;
   cs_picture_store *store;
   cs_hash hash;
-  /* calls that use the entry now; without, one may be removed that is of no file, or of a tile */
+  /* calls that use the entry now; if there are none, the entry may be removed, unless it is of a
+   * file that is no tile */
   atomic_size_t users;
   cs_picture *picture; /* a reference; NULL: the entry is of a surface, a part, or tiles */
   cs_picture_header header;

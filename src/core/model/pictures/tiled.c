@@ -52,15 +52,18 @@ static void mix(const float *near, const float *far, float out[4]) {
     out[c] = near[c] + 0.25f * (far[c] - near[c]);
 }
 
-/* An area of a level from the next one: its texel i lies a quarter from the centre of i / 2. */
-static celspan_status enlarge(const cs_part_reader *reader, const cs_picture *picture, int level,
-                              celspan_rectangle area, float *out) {
+/* An area of a level from the next one: its texel i lies a quarter from the centre of i / 2.
+ * texels: room for those of the next level, not on the stack: every missing level is another call
+ * inside this one. */
+static celspan_status enlarge_with(const cs_part_reader *reader, const cs_picture *picture,
+                                   int level, celspan_rectangle area, float texels[][HALF][4],
+                                   float *out) {
   const int32_t width = cs_mip_levels_size(picture->tiles.width, level);
   const int32_t height = cs_mip_levels_size(picture->tiles.height, level);
   int32_t left = clamp((area.x - 1) >> 1, width), top = clamp((area.y - 1) >> 1, height);
   const celspan_rectangle from = {left, top, clamp((area.x + area.width) / 2, width) - left + 1,
                                   clamp((area.y + area.height) / 2, height) - top + 1};
-  float texels[HALF][HALF][4], near[4], far[4];
+  float near[4], far[4];
   CS_TRY(cs_part_copy(reader, picture, level, &from, texels[0][0], HALF));
   for (int32_t y = area.y; y < area.y + area.height; y++, out += 4 * (size_t)CS_PICTURE_BLOCK)
     for (int32_t x = area.x; x < area.x + area.width; x++) {
@@ -71,6 +74,17 @@ static celspan_status enlarge(const cs_part_reader *reader, const cs_picture *pi
       mix(near, far, out + 4 * (size_t)(x - area.x));
     }
   return CELSPAN_OK;
+}
+
+static celspan_status enlarge(const cs_part_reader *reader, const cs_picture *picture, int level,
+                              celspan_rectangle area, float *out) {
+  cs_memory *memory = reader->context->memory;
+  float(*texels)[HALF][4] = cs_mem_array(memory, HALF, sizeof *texels);
+  if (!texels)
+    return cs_fail_memory(reader->context);
+  celspan_status status = enlarge_with(reader, picture, level, area, texels, out);
+  cs_mem_free(memory, texels, HALF * sizeof *texels);
+  return status;
 }
 
 /* The texels of a block along an axis, and those of them that a tile gives. */
