@@ -8,6 +8,7 @@
 #include "engine/sample/sampler.h"
 #include "model/pictures/load.h"
 #include "tests/support/check.h"
+#include "tests/support/memory.h"
 
 #define SIDE 1000000
 #define TOP 20 /* the level of SIDE pixels */
@@ -231,6 +232,27 @@ static void test_tile_of_wrong_size(void) {
   celspan_context_destroy(context);
 }
 
+/* Every allocation of a block that is enlarged through many levels fails once: nothing leaks. */
+static void test_memory(void) {
+  celspan_status status = CELSPAN_NO_MEMORY;
+  for (size_t n = 1; status != CELSPAN_OK && n < 1000; n++) {
+    memory_watch watch = {0};
+    celspan_context *context = memory_watch_context(&watch);
+    context->root->picture_module = &module;
+    cs_picture *picture = new_picture(context);
+    cs_picture_block *block;
+    watch.fail_at = watch.allocations + n;
+    status = cs_load_block(context, picture, 0, 0, 0, &block);
+    CHECK(status == CELSPAN_OK || status == CELSPAN_NO_MEMORY);
+    if (status == CELSPAN_OK)
+      cs_store_release(block);
+    cs_picture_unref(picture);
+    celspan_context_destroy(context);
+    CHECK(watch.blocks == 0 && watch.bytes == 0 && watch.size_errors == 0);
+  }
+  CHECK(status == CELSPAN_OK);
+}
+
 static float first_texel(int level) {
   celspan_context *context = new_context((size_t)64 << 20);
   cs_picture *picture = new_picture(context);
@@ -260,6 +282,7 @@ int main(void) {
   test_result_has_no_history();
   test_texels();
   test_tile_of_wrong_size();
+  test_memory();
   test_links();
   remove_tiles();
   return check_done();
