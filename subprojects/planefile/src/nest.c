@@ -7,7 +7,7 @@ const char *pf_nest_begin(const unsigned char start[PF_NEST_BYTES], uint64_t fil
   if (pf_load_32(start + 8) != PF_NEST_VERSION)
     return "the nest of planes has another version";
   if (planes == 0 || planes > PF_NEST_MOST || windows > PF_NEST_MOST)
-    return "the nest has more planes or windows than are allowed";
+    return "a nest has 1 to 1024 planes and at most 1024 windows";
   *size = PF_NEST_BYTES + (size_t)PF_SIZE_BYTES * planes + (size_t)PF_WINDOW_BYTES * windows +
           PF_CHECK_BYTES;
   return *size <= file_size ? NULL : "the file is too short for the head of its nest";

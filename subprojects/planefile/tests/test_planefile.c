@@ -1159,7 +1159,7 @@ static bool is_nest_refused(const memory_file *nest, size_t at, uint64_t number,
 }
 
 static void test_nest_reasons(void) {
-  static const char many[] = "the nest has more planes or windows than are allowed";
+  static const char many[] = "a nest has 1 to 1024 planes and at most 1024 windows";
   static const char window[] = "the nest has a window that is not allowed";
   static const char large[] = "the planes of the nest are larger than the file";
   static const struct {

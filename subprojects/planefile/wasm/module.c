@@ -11,7 +11,8 @@
 
 static unsigned char *bytes; /* of the file */
 static size_t byte_count;
-static uint64_t file_size; /* of a nest more: inner planes are not there */
+static uint64_t file_size; /* of the file; of a nest it is more than byte_count, because only the
+                           * outer plane is in memory */
 static planefile_plane *plane;
 static planefile_fault fault;
 static unsigned char *pixels; /* of the latest view */

@@ -442,6 +442,24 @@ end)
 describe("planes in a plane", function()
   local TABLE = "x,y,width,height,plane\n"
 
+  --- CRC-32C.
+  local function checksum(bytes)
+    local sum = 0xffffffff
+    for i = 1, #bytes do
+      sum = sum ~ bytes:byte(i)
+      for _ = 1, 8 do sum = sum >> 1 ~ (sum & 1) * 0x82f63b78 end
+    end
+    return sum ~ 0xffffffff
+  end
+
+  --- A plane with others in it, which no window shows, as the program does not write it.
+  local function nest(...)
+    local count = select("#", ...)
+    local head = ("<c8I4I4I4"):pack("celnests", 1, count, 0)
+    for i = 1, count do head = head .. ("<I8"):pack(#select(i, ...)) end
+    return head .. ("<I4"):pack(checksum(head)) .. table.concat { ... }
+  end
+
   before_each(function()
     done("render film.lua -o film.plane")
     done("render film.lua --frames 2 -o still.plane")
@@ -479,11 +497,15 @@ describe("planes in a plane", function()
 
   it("are at most sixteen in each other", function()
     bench:write("0.plane", bench:read "still.plane")
-    for i = 1, 16 do
+    for i = 1, 15 do
       bench:write("a.csv", ("%s0,0,80,45,%d.plane\n"):format(TABLE, i - 1))
       done("plane still.plane --windows a.csv -o %d.plane", i)
     end
     done("info 15.plane")
+    bench:write("a.csv", TABLE .. "0,0,80,45,15.plane\n")
+    refused(4, "15.plane: it has planes 16 deep; no reader goes deeper",
+      "plane still.plane --windows a.csv -o 16.plane")
+    bench:write("16.plane", nest(bench:read "still.plane", bench:read "15.plane"))
     refused(4, "more than 16 planes are in each other", "info 16.plane")
   end)
 
@@ -492,7 +514,8 @@ describe("planes in a plane", function()
       { 4, "a.csv: row 1: the window 150,0,16,9 is not in the frame, which is 160 x 90",
         "150,0,16,9,still.plane" },
       { 4, "a.csv: row 1: the window -1,0,16,9 is not", "-1,0,16,9,still.plane" },
-      { 4, "a.csv: row 1: the window 1,1,1e-05,1e-05 is not", "1,1,1e-5,1e-5,still.plane" },
+      { 4, "a.csv: row 1: the window 1,1,1e-05,1e-05 is not in the frame, which is 160 x 90, or "
+        .. "too small (at least a 1048576th of each side)", "1,1,1e-5,1e-5,still.plane" },
       { 4, "a.csv: line 2: column 'x' is 'left'", "left,0,16,9,still.plane" },
       { 4, "a.csv: row 1: it has no 'plane'", "0,0,16,9," },
       { 4, "none.plane: No such file", "0,0,16,9,none.plane" },
@@ -508,8 +531,34 @@ describe("planes in a plane", function()
       "plane outer.plane --windows outer.csv -o a.plane")
     refused(2, "--windows: give a FILE", "plane film.plane --windows outer.csv -o a.html")
     refused(2, "--windows: give a FILE", "plane --windows outer.csv -o a.plane")
+    refused(2, "--title: a plane has no title",
+      "plane film.plane --windows outer.csv -o a.plane --title A")
+    bench:write("table.plane", TABLE .. "0,0,16,9,still.plane\n")
+    refused(2, "the output is the plane that is read",
+      "plane film.plane --windows table.plane -o table.plane")
+    bench:write("bare.plane", nest(bench:read "still.plane"))
+    done("info bare.plane")
+    refused(4, "bare.plane: this plane has windows already",
+      "plane bare.plane --windows outer.csv -o a.plane")
+    bench:write("a.csv", TABLE)
+    refused(4, "a.csv: has no rows: give one for each window",
+      "plane film.plane --windows a.csv -o a.plane")
     bench:write("a.csv", TABLE .. ("0,0,16,9,still.plane\n"):rep(1025))
     refused(4, "has 1025 rows; a plane has at most 1024 windows",
       "plane film.plane --windows a.csv -o a.plane")
+  end)
+
+  it("are at most 1023, so that a reader takes the file", function()
+    local rows, still = {}, bench:read "still.plane"
+    for i = 1, 1024 do
+      bench:write(("%d.plane"):format(i), still)
+      rows[i] = ("0,0,16,9,%d.plane\n"):format(i)
+    end
+    bench:write("a.csv", TABLE .. table.concat(rows))
+    refused(4, "a.csv: names 1024 planes; a plane has at most 1023 in it",
+      "plane film.plane --windows a.csv -o a.plane")
+    bench:write("a.csv", TABLE .. table.concat(rows, "", 1, 1023) .. rows[1])
+    done("plane film.plane --windows a.csv -o a.plane")
+    assert.matches("windows 1024\nplanes 1023\n$", done "info a.plane")
   end)
 end)

@@ -172,11 +172,14 @@ static int64_t check_frames(lua_State *L, const char *path, const celspan_plane 
 
 enum { NESTS_MOST = 16 }; /* planes in each other */
 
-/* Reads all planes in a plane, however deep. Returns their number. */
-static int64_t check_inner(lua_State *L, const char *path, const celspan_plane *plane, int depth) {
+/* Reads all planes in a plane, however deep. deepest: at least `depth`, that of the plane. Returns
+ * their number. */
+static int64_t check_inner(lua_State *L, const char *path, const celspan_plane *plane, int depth,
+                           int *deepest) {
   celspan_context *context = cs_service_session(L)->context;
   uint32_t count = (uint32_t)cs_plane_count(plane).inner;
   int64_t all = count;
+  *deepest = depth > *deepest ? depth : *deepest;
   if (count > 0 && depth == NESTS_MOST)
     cs_service_try(L, cs_fail(context, CELSPAN_INPUT, "%s: more than %d planes are in each other",
                               path, NESTS_MOST));
@@ -187,7 +190,7 @@ static int64_t check_inner(lua_State *L, const char *path, const celspan_plane *
     const char *name = lua_pushfstring(L, "%s: plane %d", path, (int)i + 1);
     cs_service_try(L, cs_plane_enter(context, name, plane, i, inner));
     check_frames(L, name, *inner);
-    all += check_inner(L, name, *inner, depth + 1);
+    all += check_inner(L, name, *inner, depth + 1, deepest);
     celspan_plane_unref(*inner);
     *inner = NULL;
     lua_pop(L, 1);
@@ -197,7 +200,7 @@ static int64_t check_inner(lua_State *L, const char *path, const celspan_plane *
 }
 
 /* plane(path) -> counts for the whole file: `pictures` of all frames, `planes` in it however deep,
- * otherwise of the first frame of the outer plane */
+ * `levels` of planes in each other; otherwise of the first frame of the outer plane */
 static int read_plane(lua_State *L) {
   celspan_context *context = cs_service_session(L)->context;
   const char *path = luaL_checkstring(L, 1);
@@ -208,10 +211,12 @@ static int read_plane(lua_State *L) {
   double width, height, rate;
   int64_t pictures = check_frames(L, path, *plane);
   celspan_plane_size(*plane, &width, &height);
-  int64_t planes = check_inner(L, path, *plane, 1);
-  lua_createtable(L, 0, 14);
+  int deepest = 1;
+  int64_t planes = check_inner(L, path, *plane, 1, &deepest);
+  lua_createtable(L, 0, 15);
   cs_put_integer(L, "pictures", pictures);
   cs_put_integer(L, "planes", planes);
+  cs_put_integer(L, "levels", deepest);
   cs_put_integer(L, "windows", (int64_t)facts.shown);
   cs_put_integer(L, "frames", celspan_plane_frames(*plane, &rate));
   cs_put_number(L, "fps", rate);

@@ -13,6 +13,7 @@ if request.windows then
   if not request[1] or not program.has_ending(page, ".plane") then
     program.usage "--windows: give a FILE, and -o with a name that ends in .plane"
   end
+  if request.title then program.usage "--title: a plane has no title: leave it out" end
   return program.part("windows.lua", program, request)
 end
 local path, is_script = request[1], program.has_ending(page, ".js")

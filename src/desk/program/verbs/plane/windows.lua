@@ -4,6 +4,7 @@ local program, request = ...
 local csv = require "celspan.csv"
 
 local MOST, LEAST = 1024, 1 / (1 << 20) -- planes, and windows; of a window, in sides of the frame
+local DEEPEST = 16 -- planes in each other
 
 --- CRC-32C.
 local function checksum(bytes)
@@ -16,21 +17,26 @@ local function checksum(bytes)
 end
 
 local path, list = request[1], request.windows
+program.refuse_self(list, request.output)
 local rows, message = csv.decode(program.bytes(list),
   { types = { x = "number", y = "number", width = "number", height = "number" } })
 if not rows then program.fail("input", "%s: %s", list, message) end
 local outer = program.plane(path)
-if outer.windows > 0 then program.fail("input", "%s: this plane has windows already", path) end
-program.refuse_self(path, request.output)
-
 local planes, numbers, windows = { program.bytes(path) }, {}, {}
+if planes[1]:find("^celnests") then
+  program.fail("input", "%s: this plane has windows already", path)
+end
+program.refuse_self(path, request.output)
 
 --- The number of a plane, which is in the file once.
 local function number_of(name)
   local file = program.resolve(name)
   if not numbers[file] then
     program.refuse_self(name, request.output)
-    program.plane(name) -- fails if the file is not a plane
+    local levels = program.plane(name).levels -- fails if the file is not a plane
+    if levels == DEEPEST then
+      program.fail("input", "%s: it has planes %d deep; no reader goes deeper", name, DEEPEST)
+    end
     planes[#planes + 1] = program.bytes(name)
     numbers[file] = #planes - 1
   end
@@ -42,6 +48,7 @@ local function refuse(i, format, ...)
   program.fail("input", "%s: row %d: %s", list, i, format:format(...))
 end
 
+if #rows == 0 then program.fail("input", "%s: has no rows: give one for each window", list) end
 if #rows > MOST then
   program.fail("input", "%s: has %d rows; a plane has at most %d windows", list, #rows, MOST)
 end
@@ -53,11 +60,16 @@ for i, row in ipairs(rows) do
   local right, foot = (row.x + row.width) / outer.width, (row.y + row.height) / outer.height
   if not (left >= 0 and top >= 0 and right <= 1 and foot <= 1 and right - left >= LEAST
     and foot - top >= LEAST) then
-    refuse(i, "the window %g,%g,%g,%g is not in the frame, which is %g x %g, or too small",
+    refuse(i, "the window %g,%g,%g,%g is not in the frame, which is %g x %g, or too small "
+      .. "(at least a 1048576th of each side)",
       row.x, row.y, row.width, row.height, outer.width, outer.height)
   end
   local name = row.plane:find "^/" and row.plane or (list:match "^.*/" or "") .. row.plane
   windows[i] = ("<ddddI4"):pack(left, top, right, foot, number_of(name))
+end
+if #planes > MOST then
+  program.fail("input", "%s: names %d planes; a plane has at most %d in it", list, #planes - 1,
+    MOST - 1)
 end
 
 local sizes = {}
