@@ -5,6 +5,7 @@
 //   site.policy = TEXT               the policy of all answers, or null
 //   site.delay = 500                 milliseconds until planes are sent
 //   site.parts = true                planes are sent in parts, if these are asked for
+//   site.first = 100                bytes that are sent of a part that begins the file, at most
 //   site.lost = true                 parts are not sent
 //   site.asked                       a line for each request: the name of the file, and the part
 //   page.load(site.at("x.html"), /^http:/); ... site.close();
@@ -16,7 +17,7 @@ const KINDS = { html: "text/html", css: "text/css", js: "text/javascript", mjs: 
                 png: "image/png" };
 
 module.exports = async folder => {
-  const site = { pages: {}, policy: null, delay: 0, parts: false, lost: false, asked: [] };
+  const site = { pages: {}, policy: null, delay: 0, parts: false, first: Infinity, lost: false, asked: [] };
   const server = http.createServer((request, answer) => {
     const name = request.url.slice(1).replace(/[?].*/, ""), ending = name.split(".").at(-1);
     const body = site.pages[name]
@@ -29,7 +30,8 @@ module.exports = async folder => {
     if (part && site.lost) return answer.writeHead(503).end();
     if (part) {
       if (Number(part[1]) >= body.length) return answer.writeHead(416).end();
-      const start = Number(part[1]), end = Math.min(Number(part[2]) + 1, body.length);
+      const start = Number(part[1]), most = start ? Infinity : site.first;
+      const end = Math.min(Number(part[2]) + 1, body.length, most);
       answer.setHeader("content-range", `bytes ${start}-${end - 1}/${body.length}`);
       return setTimeout(() => answer.writeHead(206).end(body.subarray(start, end)), site.delay);
     }

@@ -314,7 +314,8 @@ class CelspanFilm extends (globalThis.HTMLElement ?? class {}) {
     this.#part("play").textContent = this.#is_paused ? "\u25b6" : "\u23f8";
     this.#part("play").setAttribute("aria-label", this.#is_paused ? "Play" : "Pause");
     if (this.#is_paused) return;
-    if (this.#shown === this.#plane.frames - 1) this.#choose(0);
+    const { frames } = this.#plane;
+    if (frames > 1 && this.#shown === frames - 1) this.#choose(0);
     this.#started = null;
     this.#tick = requestAnimationFrame(now => this.#play_on(now));
   }

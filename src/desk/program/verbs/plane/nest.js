@@ -5,6 +5,7 @@ const KEPT = 64; // inner planes in memory, unless more are shown
 const AT_ONCE = 4; // planes being read
 const AGAIN = 3000; // milliseconds until bytes that did not come are asked for again
 const DEEPEST = 16; // planes in each other
+const SHOWN = 256; // windows in a picture, so that a small file costs little
 const LARGEST_SIDE = 2 ** 31 - 1; // pixels of a plane that is drawn
 
 // The bytes of a file, which are read in parts where its server gives parts.
@@ -47,7 +48,7 @@ class Nest {
   static async open(source, { start, end, depth }) {
     const nest = new Nest();
     let bytes = await source.read(start, Math.min(start + HEAD, end));
-    const size = Math.min(end, source.size) - start, table = new DataView(bytes.slice().buffer);
+    const size = Math.min(end, source.size) - start, table = view_of(bytes);
     const is_nest = bytes.length > 32 && String.fromCharCode(...bytes.slice(0, 8)) === "celnests";
     const [planes, count] = is_nest ? [12, 16].map(at => table.getUint32(at, true)) : [0, 0];
     const head = 24 + 8 * planes + 36 * count;
@@ -58,7 +59,7 @@ class Nest {
     }
     nest.plane = await Plane.open(bytes.subarray(0, needed), size); // which checks every number
     if (depth > DEEPEST) throw new Error("This picture is damaged: its planes are too deep.");
-    if (is_nest) nest.#read_windows(table, { planes, count, at: start + head, depth });
+    if (is_nest) nest.#read_windows(view_of(bytes), { planes, count, at: start + head, depth });
     return nest;
   }
 
@@ -75,8 +76,8 @@ class Nest {
     }
   }
 
-  // Adds to `found`, { canvas, clock, shown, wanted }, what the canvas shows where it has a place on
-  // that, from the rear to the front, and which planes are missing.
+  // Adds to `found`, { canvas, clock, near, shown, wanted }, what the canvas shows where it has a
+  // place on that, from the rear to the front, and which planes are missing. near: how many windows.
   gather(place, found, window) {
     const { left, upper, right, lower } = place, across = right - left, down = lower - upper;
     if (Math.max(across, down) < LARGEST_SIDE) found.shown.push({ nest: this, place, window });
@@ -86,6 +87,7 @@ class Nest {
       const size = Math.min(inner.right - inner.left, inner.lower - inner.upper);
       if (size < NEAR || inner.right < 0 || inner.left > found.canvas.width || inner.lower < 0
         || inner.upper > found.canvas.height) continue;
+      if (++found.near > SHOWN) return;
       one.file.used = found.clock;
       if (one.file.nest) one.file.nest.gather({ ...inner, size }, found, one);
       else if (!one.file.is_coming) found.wanted.push({ file: one.file, size });
@@ -109,8 +111,8 @@ class Planes {
 
   // Draws a frame of the outer plane at a place of the canvas, and what its windows show at a time.
   paint(pencil, place, frame, time) {
-    const { canvas } = pencil, found = { canvas, clock: ++this.clock, shown: [], wanted: [] };
-    const { shown } = found, drawn = this.pictures;
+    const { canvas } = pencil, shown = [], drawn = this.pictures;
+    const found = { canvas, clock: ++this.clock, near: 0, shown, wanted: [] };
     this.outer.gather(place, found);
     let first = shown.length;
     while (first > 0 && !this.#covers(shown[first], canvas)) {
@@ -118,8 +120,8 @@ class Planes {
       plane.choose(window ? Math.floor(time * plane.rate + 1e-6) % plane.frames : frame);
     }
     this.pictures = new Map();
+    pencil.clearRect(0, 0, canvas.width, canvas.height);
     shown.slice(first).forEach((one, i) => {
-      if (i === 0) pencil.clearRect(0, 0, canvas.width, canvas.height);
       if (i === 0) one.nest.plane.paint(pencil, rounded(one.place));
       else this.#paint_window(pencil, one, drawn.get(one.window));
     });
@@ -169,7 +171,7 @@ class Planes {
     this.changed();
   }
 
-  // The planes that have not been shown for the longest time, with all planes in them.
+  // The planes that have not been shown for the longest time.
   #forget() {
     if (this.loaded.size <= KEPT) return;
     const old = [...this.loaded].filter(file => file.used < this.clock);
@@ -196,6 +198,8 @@ class Planes {
     return 2 ** 26; // nobody knows yet how deep it is
   }
 }
+
+const view_of = bytes => new DataView(bytes.buffer, bytes.byteOffset, bytes.length);
 
 const rounded = ({ left, upper, right, lower }) => ({
   left: Math.round(left), right: Math.max(Math.round(left) + 1, Math.round(right)),
