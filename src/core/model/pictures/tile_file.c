@@ -1,20 +1,26 @@
 #include "model/pictures/tile_file.h"
 
+#include <fcntl.h>
 #include <stdio.h>
 #include <sys/stat.h>
 
 #include "base/open.h"
 #include "model/pictures/mip_levels.h"
 
+static mode_t kind_of(const char *path) {
+  struct stat found;
+  bool is_there = fstatat(AT_FDCWD, path, &found, AT_SYMLINK_NOFOLLOW) == 0;
+  return is_there ? found.st_mode & S_IFMT : 0;
+}
+
 bool cs_tile_file_find(const cs_picture *picture, cs_tile_file tile, char path[CS_TILE_FILE_PATH]) {
   const celspan_picture_tiles *tiles = &picture->tiles;
   int level = cs_mip_levels_count(tiles->width, tiles->height) - 1 - tile.level;
-  struct stat found;
   return snprintf(path, CS_TILE_FILE_PATH, "%s/%d", picture->file, level) < CS_TILE_FILE_PATH &&
-         lstat(path, &found) == 0 && S_ISDIR(found.st_mode) &&
+         kind_of(path) == S_IFDIR &&
          snprintf(path, CS_TILE_FILE_PATH, "%s/%d/%d_%d.%s", picture->file, level, (int)tile.column,
                   (int)tile.row, tiles->ending) < CS_TILE_FILE_PATH &&
-         lstat(path, &found) == 0 && S_ISREG(found.st_mode);
+         kind_of(path) == S_IFREG;
 }
 
 void cs_tile_file_hash(const cs_picture *picture, cs_hash *hash) {
