@@ -56,10 +56,12 @@ typedef enum celspan_wrap { CELSPAN_WRAP_CLEAR = 0, CELSPAN_WRAP_CLAMP, CELSPAN_
 typedef enum celspan_picture_use { CELSPAN_PICTURE_PAINT = 0, CELSPAN_PICTURE_GEL }
   celspan_picture_use;
 typedef struct celspan_surface celspan_surface;
+typedef struct celspan_picture_tiles { int32_t width, height; int32_t size, overlap; char
+  ending[8]; } celspan_picture_tiles;
 typedef struct celspan_picture_desc { size_t struct_size; const char *file; const char *colour;
   const char *layer; int subimage; celspan_sampling sampling; celspan_picture_use use; celspan_wrap
   wrap; bool has_box; celspan_box box; celspan_surface *surface; bool has_source; celspan_box
-  source; bool smooth; } celspan_picture_desc;
+  source; bool smooth; const celspan_picture_tiles *tiles; } celspan_picture_desc;
 void celspan_picture_desc_default(celspan_picture_desc *out, size_t struct_size);
 celspan_status celspan_texture_create_paint(celspan_context *context, const celspan_paint *paint,
   celspan_texture **out);

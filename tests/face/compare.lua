@@ -15,7 +15,7 @@ compare.LENT = { celspan_fault = true, celspan_glyph = true, celspan_svg_element
 compare.VALUES = {}
 for name in ([[origin point box matrix paint light light_texture stop rectangle scanline_row
   rostrum_counts exposure span feature variation svg_font svg_changed light_field relight_ground
-  stack_light luma sound_passage sound_ducker contour]]):gmatch "%S+" do
+  stack_light luma sound_passage sound_ducker contour picture_tiles]]):gmatch "%S+" do
   compare.VALUES["celspan_" .. name] = true
 end
 

@@ -110,7 +110,7 @@ end
 
 -- Of 300 drawings; `--all` tries all of them.
 local HAS_ALL = (tonumber(os.getenv "CELSPAN_SCENES") or 0) >= 300
-local SCENES = HAS_ALL and 300 or 40
+local SCENES = HAS_ALL and 300 or 60
 
 describe("areas between lines", function()
   it("are those of made drawings with gaps", function() check(1, 1) end)
