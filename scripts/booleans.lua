@@ -1,6 +1,5 @@
 -- The four boolean operations on the same two objects, a ripple of rings and a flower: union,
 -- intersection, difference and exclusive-or. The rings themselves are an exclusive-or of discs.
-local label = require "stage.label"
 
 local grounds = { "#15233f", "#f3e7cf", "#f0a23b", "#b93a3f" }
 
@@ -20,12 +19,12 @@ local function flower(petals, radius, texture)
   return union(list)
 end
 
---- {colour of the rings, of the flower, the operation, its name and the name's colour}
+--- {colour of the rings, of the flower, the operation}
 local operations = {
-  { "#3fa7a3", "#f7d9a0", function(a, b) return a | b end, "union: a | b", "#f7d9a0" },
-  { "#1f4e79", "#d9483b", function(a, b) return a & b end, "intersection: a & b", "#1f4e79" },
-  { "#5b1f3a", "#fff1d6", function(a, b) return a - b end, "difference: a - b", "#5b1f3a" },
-  { "#f9dfae", "#1d1a38", function(a, b) return a ~ b end, "exclusive-or: a ~ b", "#f9dfae" },
+  { "#3fa7a3", "#f7d9a0", function(a, b) return a | b end },
+  { "#1f4e79", "#d9483b", function(a, b) return a & b end },
+  { "#5b1f3a", "#fff1d6", function(a, b) return a - b end },
+  { "#f9dfae", "#1d1a38", function(a, b) return a ~ b end },
 }
 
 return film { size = { 1920, 640 }, frames = 48, frame = function(f)
@@ -37,8 +36,7 @@ return film { size = { 1920, 640 }, frames = 48, frame = function(f)
     local petals = flower(8, 212, operation[2]):rotate(45 * u):translate(18, -lift)
     local object = operation[3](rings, petals)
     art[#art + 1] = rect { (i - 1) * 480, 0, 480, 640, fill = grounds[i] }
-    art[#art + 1] = object:scale(0.92):translate((i - 0.5) * 480, 284)
-    art[#art + 1] = label(operation[4], (i - 0.5) * 480, 612, operation[5], 42)
+    art[#art + 1] = object:translate((i - 0.5) * 480, 320)
   end
   return cel(art)
 end }
