@@ -170,7 +170,7 @@ static celspan_status cut_row(cs_tile_writer *writer, const cs_pyramid_box *box,
 typedef struct tile_content {
   cs_hash hash;
   bool is_empty;
-  bool is_plain; /* it has one colour: */
+  bool is_plain; /* it has one colour, if an option asks for that: */
   unsigned char pixel[16];
 } tile_content;
 
@@ -188,7 +188,7 @@ static celspan_status read_content(cs_tile_writer *writer, const cs_pyramid_box 
   size_t size = (size_t)(box->x1 - box->x0) * pixel_size, count;
   CS_TRY(CS_RESERVE(&writer->context, writer->pixels, writer->pixel_capacity, size));
   cs_hash hash = cs_hash_begin((uint64_t)(box->x1 - box->x0));
-  *out = (tile_content){.is_plain = true};
+  *out = (tile_content){.is_plain = output->skips_empty || output->is_sparse};
   for (int32_t y = box->y0; y < box->y1; y++) {
     CS_TRY(cut_row(writer, box, y, &count));
     cs_pixels_row(coding, writer->spans, count, writer->pixels);
