@@ -218,6 +218,7 @@ return {
   ["lua/celspan/draw/ticks.lua"] = { "spec/chart" },
   ["lua/celspan/draw/colour.lua"] = { "spec/layout" },
   ["lua/celspan/draw/palette_files.lua"] = { "spec/palettes" },
+  ["lua/celspan/draw/details.lua"] = { "spec/tiled" },
   ["lua/celspan/draw/dissolve.lua"] = { "spec/composite" },
   ["lua/celspan/draw/echo.lua"] = { "spec/layout" },
   ["lua/celspan/film/grain.lua"] = { "spec/noise" },

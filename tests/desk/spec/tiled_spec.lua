@@ -186,3 +186,53 @@ describe("a description of tiles", function()
     assert.are.equal(0, difference("other.png", "scan.png"))
   end)
 end)
+
+describe("a picture with details", function()
+  it_reads("is read at its own scale in each of them", function()
+    cut()
+    bench:write("detail.lua", [[
+return film { size = { 400, 300 }, frame = function()
+  return cel { rect { 0, 0, 400, 300, fill = "#204010" }, circle { 200, 150, 90, fill = "#fe9" } }
+end }]])
+    run("render %s/detail.lua -o %s/detail.png --progress none", folder, folder)
+    local BOX = "{ 0, 0, 700, 500 }"
+    --- A film of a part of the frame, w units wide, filled by a texture in `folder`.
+    local function part(name, texture, x, y, w, h)
+      bench:write("film.lua", ([[return film { size = { 400, %g }, frame = function()
+        return { cel { rect { -700, -500, 2100, 1500, fill = %s } },
+          camera = { centre = { %g, %g }, width = %g } } end }]]):format(400 * h // w, texture,
+        x + w / 2, y + h / 2, w))
+      render(name)
+    end
+    local detailed = ([[picture { file = "p/scan.dzi", box = %s, %%s
+      details = { { file = "detail.png", box = { 448, 248, 4, 3 } } } }]]):format(BOX)
+    -- The detail is itself at its scale; around it is the scan, and around the scan nothing.
+    part("near.png", detailed:format "", 448, 248, 4, 3)
+    assert.is_true(difference("near.png", "detail.png") < 1 / 255)
+    part("far.png", detailed:format "", -350, -250, 1400, 1000)
+    part("plain.png", ("picture { file = 'p/scan.dzi', box = %s }"):format(BOX), -350, -250, 1400,
+      1000)
+    local seen = difference("far.png", "plain.png")
+    assert.is_true(seen > 0.05 and seen < 1, seen) -- about a pixel
+    part("again.png", detailed:format "wrap = 'repeat',", 1148, 748, 4, 3)
+    assert.is_true(difference("again.png", "near.png") < 1 / 255)
+  end)
+
+  it_reads("says what is wrong with them", function()
+    cut()
+    for fields, message in pairs {
+      ["details = {}"] = "picture: field 'box' must be a box {x, y, width, height}, got nil",
+      ["box = { 0, 0, 1, 1 }, details = 3"] =
+        "picture: field 'details' must be a list of {box =, file =}, got number",
+      ["box = { 0, 0, 1, 1 }, details = { 7 }"] =
+        "picture: detail 1 must be {box =, file =}, got number",
+      ["box = { 0, 0, 1, 1 }, details = { { file = 'p.png', box = { 0, 0, 1 } } }"] =
+        "picture: detail 1: field 'box'[4] must be a number, got nil",
+      ["box = { 0, 0, 1, 1 }, wrap = 'clamp', details = {}"] =
+        "picture: with details, field 'wrap' must be \"clear\" or \"repeat\", got string",
+    } do
+      film(("rect { 0, 0, 9, 9, fill = picture { file = 'p/scan.dzi', %s } }"):format(fields))
+      assert.matches(message, failure(), 1, true)
+    end
+  end)
+end)

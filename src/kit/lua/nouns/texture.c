@@ -10,6 +10,7 @@
 #include "lua/bind/files.h"
 #include "lua/bind/host.h"
 #include "lua/bind/numbers.h"
+#include "lua/bind/require.h"
 #include "lua/nouns/nouns.h"
 #include "readers/layered/dzi.h"
 
@@ -329,7 +330,21 @@ void cs_texture_read_picture(const cs_form *form, int holder, cs_texture_picture
   read_tiles(form, desc);
 }
 
+/* A picture with details is a pattern of it and of them, which is made in Lua. */
+static void create_detailed(const cs_form *form, cs_userdata *value) {
+  lua_State *L = form->L;
+  cs_require_module(L, "celspan.details");
+  lua_getfield(L, -1, "texture");
+  lua_pushvalue(L, form->table);
+  lua_call(L, 1, 1);
+  value->handle = celspan_texture_ref(cs_userdata_test(L, -1, &cs_kind_texture)->handle);
+}
+
 static void create_picture(const cs_form *form, cs_userdata *value) {
+  if (cs_form_has(form, "details")) {
+    create_detailed(form, value);
+    return;
+  }
   cs_texture_picture read = {.picture = CELSPAN_PICTURE_DESC};
   cs_texture_read_picture(form, lua_gettop(form->L), &read);
   celspan_texture *texture = NULL;
@@ -368,10 +383,11 @@ const cs_field cs_texture_picture_fields[] = {
     {"alpha", CS_CHOICE(READ, pixels.alpha, cs_pixel_string_alphas), CS_HAS(READ, pixels.has_alpha),
      .about = "Of the pixels", .fallback = "integers straight, floats premultiplied"},
     {0}};
-static const cs_field picture_fields[] = {{"box", CS_BOX(READ, picture.box),
-                                           CS_HAS(READ, picture.has_box),
-                                           .fallback = "the bounding rectangle of the primitive"},
-                                          {.more = cs_texture_picture_fields}};
+static const cs_field picture_fields[] = {
+    {"box", CS_BOX(READ, picture.box), CS_HAS(READ, picture.has_box),
+     .fallback = "the bounding rectangle of the primitive"},
+    {"details", CS_OWN("table[]"), .about = "Pictures over parts of it, {box =, file =}"},
+    {.more = cs_texture_picture_fields}};
 
 /* ---------------------------------------------------------------- patterns */
 
