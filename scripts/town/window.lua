@@ -34,9 +34,10 @@ function window.frame(w, h, kind)
   local edge = 0.028 * math.max(w, h)
   local parts = {}
   if kind == "round" then
-    local hole = circle { w / 2, h / 2, math.min(w, h) / 2 - edge }
-    parts[1] = (rect { 0, 0, w, h } - hole):paint(WOOD)
-    parts[2] = (circle { w / 2, h / 2, math.min(w, h) / 2 } - hole):paint(LIT)
+    local radius = math.min(w, h) / 2
+    local glass = circle { w / 2, h / 2, radius - 1.3 * edge }
+    parts[1] = circle { w / 2, h / 2, radius, fill = WOOD } - glass
+    parts[2] = circle { w / 2, h / 2, radius - edge, fill = LIT } - glass
   else
     for _, bar in ipairs(bars[kind](w, h, 0.4 * edge)) do
       parts[#parts + 1] = rect { bar[1], bar[2], bar[3], bar[4], fill = WOOD }
@@ -45,13 +46,14 @@ function window.frame(w, h, kind)
     parts[#parts + 1] = (rect { 0, 0, w, h } - hole):paint(WOOD)
     parts[#parts + 1] = rect { edge, h - 1.3 * edge, w - 2 * edge, 0.3 * edge, fill = LIT }
   end
-  parts[#parts + 1] = snow(0, h, w, 1.7 * edge)
+  local inset = kind == "round" and 0.24 * w or 0
+  parts[#parts + 1] = snow(inset, h, w - 2 * inset, 1.7 * edge)
   return union(parts)
 end
 
 --- Who drew it: two letters in the snow of the sill, a 60th of the width, for who comes near.
 local function signature(by, w, h)
-  return text { by, at = { 0.93 * w, h - 0.004 * h }, size = w / 60, font = window.font,
+  return text { by, at = { 0.7 * w, h - 0.004 * h }, size = w / 60, font = window.font,
     fill = moods.snow.ink }
 end
 
@@ -63,11 +65,14 @@ window.font = "../type/poster.ttf"
 --- fills the frame.
 function window.film(fields)
   local w, h = table.unpack(fields.size or { 450, 600 })
+  local is_round = fields.pane == "round" -- around the glass one sees the wall
   local over = window.frame(w, h, fields.pane or "transom") | signature(fields.by, w, h)
+  local glass = circle { w / 2, h / 2, math.min(w, h) / 2 }
   return film { title = fields.title, size = { w, h }, fps = 12, duration = fields.seconds,
-    background = WOOD,
+    background = not is_round and WOOD or nil,
     frame = function(f)
       local shown = fields.drawing(f.index / f.count, f.index)
+      if is_round then shown = { clip(union(shown), glass) } end
       shown[#shown + 1] = over
       return cel(shown)
     end }
