@@ -21,6 +21,8 @@ const LANGUAGES = { lua: "lua", sh: "bash", c: "c", h: "c", json: "json", python
   py: "python", html: "html", js: "javascript", meson: "meson" };
 const AS_IS = ["llms.txt", "docs/pictures/little-one.mp4"]; // what links lead to is no page
 
+const PLAYER = "celspan-film.js"; // in out/docs
+
 const [folder, web] = process.argv.slice(2);
 const hasEngine = web && fs.existsSync(`${web}/celspan.wasm`);
 const pages = new Map(); // the page of each file of the tree that is one
@@ -95,15 +97,15 @@ function sizeOf(file) {
 /** Where a file of docs/ is in the site. */
 const placeOf = file => posix.relative("docs", file);
 
-/** A picture with its size, which is copied to pictures/. It is what a film of the same name in
- * out/docs, which `./run docs` makes, shows until it plays. */
+/** A picture with its size, which is copied to pictures/. It is what a film or a plane of the same
+ * name in out/docs, which `./run docs` makes, shows until it plays. */
 function showPicture(page, token, about) {
   const file = posix.join(posix.dirname(page.file), token.attrGet("src"));
   const { width, height } = sizeOf(file);
   files.add(file);
   const address = way(page.address, placeOf(file));
-  const film = file.match(/^docs[/]pictures[/](works[/]\w+)[.]/)?.[1];
-  if (film && fs.existsSync(`out/docs/${film}.mp4`)) {
+  const film = posix.relative("docs/pictures", file).replace(/[.]\w+$/, "");
+  if (fs.existsSync(`out/docs/${film}.mp4`)) {
     films.add(`${film}.mp4`);
     return `<video src="${way(page.address, `${film}.mp4`)}" poster="${address}" preload="none" `
       + `controls loop playsinline aria-label="${escape(token.content)}" width="${width}" `
@@ -111,6 +113,12 @@ function showPicture(page, token, about) {
   }
   const shown = `<img src="${address}" alt="${escape(about ?? token.content)}" width="${width
   }" height="${height}" loading="lazy" decoding="async">`;
+  if (fs.existsSync(`out/docs/${film}.plane`)) {
+    films.add(`${film}.plane`).add(PLAYER);
+    return `<celspan-film src="${way(page.address, `${film}.plane`)}" autoplay loop controls `
+      + `aria-label="${escape(token.content)}">${shown}</celspan-film><script type="module" `
+      + `src="${way(page.address, PLAYER)}"></script>`;
+  }
   if (!file.endsWith(".webp") || !fs.readFileSync(file).includes("ANMF")) return shown;
   const still = `still/${placeOf(file)}`;
   stills.set(still, file);
