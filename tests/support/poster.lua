@@ -29,8 +29,8 @@ local capitals = {
   H = { 1, 30, "T l,0 l,700", "T r,0 r,700", "T l,m r,m" },
   I = { 0, 30, "T l,0 l,700" },
   J = { 0.8, 22, "T r,700 r,b l,b l,230" },
-  K = { 1.02, 30, "T l,0 l,700", "P 0,170 S,170 w+.05S,700 w-.95S,700",
-    "P .3w-.25S,330 .3w+.7S,330 w+.06S,0 w-S,0" },
+  K = { 1.02, 30, "T l,0 l,700", "P 0,170 .2w+.42S,170 w+.05S,700 .8w-.37S,700",
+    "P .3w-.25S,330 .5w+.12S,330 w+.06S,0 .8w-.42S,0" },
   L = { 0.8, 30, "T l,700 l,b! w,b" },
   M = { 1.5, 30, "T l,0 l,700", "T r,0 r,700", "P 0,700 S,700 .5w+.42S,90 .5w-.42S,90",
     "P w,700 w-S,700 .5w-.42S,90 .5w+.42S,90" },
@@ -46,43 +46,45 @@ local capitals = {
   W = { 1.62, 8, "P 0,700 .28w-.5S,0 .28w+.5S,0 S,700",
     "P .28w-.5S,0 .28w+.5S,0 .5w+.5S,640 .5w-.5S,640",
     "P .72w-.5S,0 .72w+.5S,0 .5w+.5S,640 .5w-.5S,640", "P w,700 .72w+.5S,0 .72w-.5S,0 w-S,700" },
-  X = { 1.04, 8, "P 0,700 1.1S,700 w,0 w-1.1S,0", "P w,700 w-1.1S,700 0,0 1.1S,0" },
+  X = { 1.04, 8, "P 0,700 .1w+.8S,700 w,0 .9w-.8S,0",
+    "P w,700 .9w-.8S,700 0,0 .1w+.8S,0" },
   Y = { 1.04, 2, "P 0,700 1.06S,700 .5w+.5S,250 .5w-.5S,250",
     "P w,700 w-1.06S,700 .5w-.5S,250 .5w+.5S,250", "T c,0 c,260" },
-  Z = { 0.92, 18, "T .02w,t w,t", "T 0,b w,b", "P w,700-H w-1.15S,700-H 0,H 1.15S,H" },
+  Z = { 0.92, 18, "T .02w,t w,t", "T 0,b w,b", "P w,700-H .92w-.9S,700-H 0,H .08w+.9S,H" },
 }
 
 local small = {
-  a = { 0.92, 22, "T l,400 l,x! r,x r,0", "T r,312-.5h l,312-.5h l,d r,d" },
+  a = { 0.92, 22, "T .05w,x r,x r,0", "T r,312-.5h l,312-.5h l,d r,d" },
   b = { 0.94, 26, "T l,0 l,700", "O l,x! r,x r,d l,d!" },
   c = { 0.9, 24, "T r,350 r,x l,x l,d r,d r,180" },
   d = { 0.94, 26, "T r,0 r,700", "O l,x r,x! r,d! l,d" },
   e = { 0.92, 24, "T l+.3S,e r,e! r,x l,x l,d r,d r,165" },
-  f = { 0.56, 10, "T w,700-.5h l+.1S,700-.5h l+.1S,0", "T -.1S,x w-.06S,x" },
-  g = { 0.94, 26, "O l,x r,x! r,d! l,d", "T r,520 r,-170+.5h l,-170+.5h l,-50" },
+  f = { 0.56, 10, "T w,700-.5h l+.3S,700-.5h l+.3S,0", "T -.1S,x w,x" },
+  g = { 0.94, 26, "O l,x r,x! r,d! l,d", "T r,520 r,-170+.5h .05w,-170+.5h" },
   h = { 0.94, 28, "T l,0 l,700", "T l,x! r,x r,0" },
   i = { 0, 28, "T l,0 l,520", "T l,585 l,705" },
   j = { 0, 28, "T l,520 l,-170+.5h -.45S,-170+.5h", "T l,585 l,705" },
-  k = { 0.94, 28, "T l,0 l,700", "P 0,120 S,120 w+.03S,520 w-.97S,520",
-    "P .3w-.22S,240 .3w+.7S,240 w+.06S,0 w-S,0" },
+  k = { 0.94, 28, "T l,0 l,700", "P 0,120 .2w+.42S,120 w+.03S,520 .8w-.39S,520",
+    "P .3w-.22S,240 .5w+.12S,240 w+.06S,0 .8w-.42S,0" },
   l = { 0, 28, "T l,0 l,700" },
-  m = { 1.66, 28, "T l,0 l,520", "T l,x! c,x c,0", "T c,x! r,x r,0" },
+  m = { 1.66, 28, "T l,0 l,520", "T l,x! c,x c,0", "T l,x! r,x r,0" },
   n = { 0.94, 28, "T l,0 l,520", "T l,x! r,x r,0" },
   o = { 0.94, 24, "O l,x r,x r,d l,d" },
   p = { 0.94, 26, "T l,-170 l,520", "O l,x! r,x r,d l,d!" },
   q = { 0.94, 26, "T r,-170 r,520", "O l,x r,x! r,d! l,d" },
   r = { 0.44, 24, "T l,0 l,520", "T l,x! w,x" },
   s = { 0.86, 20, "T r,385 r,x l,x l,e r,e r,d l,d l,140" },
-  t = { 0.6, 10, "T l+.1S,640 l+.1S,d w,d", "T -.1S,x w,x" },
+  t = { 0.6, 10, "T l+.3S,640 l+.3S,d w,d", "T -.1S,x w,x" },
   u = { 0.94, 28, "T r,520 r,0", "T l,520 l,d r,d!" },
   v = { 0.92, 2, "P 0,520 .5w-.5S,0 .5w+.5S,0 S,520", "P w,520 .5w+.5S,0 .5w-.5S,0 w-S,520" },
   w = { 1.5, 2, "P 0,520 .28w-.46S,0 .28w+.46S,0 .94S,520",
     "P .28w-.46S,0 .28w+.46S,0 .5w+.44S,470 .5w-.44S,470",
     "P .72w-.46S,0 .72w+.46S,0 .5w+.44S,470 .5w-.44S,470",
     "P w,520 .72w+.46S,0 .72w-.46S,0 w-.94S,520" },
-  x = { 0.92, 2, "P 0,520 1.08S,520 w,0 w-1.08S,0", "P w,520 w-1.08S,520 0,0 1.08S,0" },
-  y = { 0.94, 28, "T r,520 r,-170+.5h l,-170+.5h l,-60", "T l,520 l,d r,d!" },
-  z = { 0.84, 16, "T .02w,x w,x", "T 0,d w,d", "P w,520-h w-1.12S,520-h 0,h 1.12S,h" },
+  x = { 0.92, 2, "P 0,520 .16w+.62S,520 w,0 .84w-.62S,0",
+    "P w,520 .84w-.62S,520 0,0 .16w+.62S,0" },
+  y = { 0.94, 28, "T r,520 r,-170+.5h .05w,-170+.5h", "T l,520 l,d r,d!" },
+  z = { 0.84, 16, "T .02w,x w,x", "T 0,d w,d", "P w,520-h .82w-.63S,520-h 0,h .18w+.63S,h" },
   ["ı"] = { 0, 28, "T l,0 l,520" },
 }
 
@@ -116,8 +118,10 @@ local signs = {
   ["/"] = { 0.7, 4, "P 0,-40 .9S,-40 w,740 w-.9S,740" },
   ["+"] = { 0.95, 22, "T 0,m w,m", "T c,130 c,570" }, ["−"] = { 0.95, 22, "T 0,m w,m" },
   ["="] = { 0.95, 22, "T 0,450 w,450", "T 0,250 w,250" },
-  ["×"] = { 0.9, 18, "P 0,520 S,520 w,180 w-S,180", "P w,520 w-S,520 0,180 S,180" },
-  ["%"] = { 2.1, 16, "O l,t .4w-.5S,t .4w-.5S,330 l,330", "O .6w+.5S,370 r,370 r,b .6w+.5S,b",
+  ["×"] = { 0.9, 18, "P 0,520 .2w+.42S,520 w,180 .8w-.42S,180",
+    "P w,520 .8w-.42S,520 0,180 .2w+.42S,180" },
+  ["%"] = { 2.5, 16, "O l,t .44w-.5S,t .44w-.5S,330 l,330",
+    "O .56w+.5S,370 r,370 r,b .56w+.5S,b",
     "P .5w-.25w,0 .5w-.25w+.8S,0 .75w,700 .75w-.8S,700" },
   ["&"] = { 1.1, 16, "T w+.1S,m l,m l,b r-.25S,b r-.25S,430",
     "T .35w,m l+.12S,m l+.12S,t r-.35S,t r-.35S,530" },
@@ -132,8 +136,8 @@ local signs = {
   ["$"] = { 1, 22, "T r,490 r,t l,t l,m r,m r,b l,b l,210", "T c,680 c,780", "T c,20 c,-80" },
   ["Æ"] = { 1.6, 8, "P 0,0 .55w-.9S,700 .55w+.1S,700 S,0", "T w,t .55w,t! .55w,b! w,b",
     "T .55w,m .96w,m", "P .2w,130 .2w,225 .55w,225 .55w,130" },
-  ["Ø"] = { 1, 26, "O l,t r,t r,b l,b", "P -.1S,-30 .4S,-30 w+.1S,730 w-.4S,730" },
-  ["ø"] = { 0.94, 24, "O l,x r,x r,d l,d", "P -.1S,-30 .4S,-30 w+.1S,550 w-.4S,550" },
+  ["Ø"] = { 1, 26, "O l,t r,t r,b l,b", "P -.1S,-30 .07w+.2S,-30 w+.1S,730 .93w-.2S,730" },
+  ["ø"] = { 0.94, 24, "O l,x r,x r,d l,d", "P -.1S,-30 .07w+.2S,-30 w+.1S,550 .93w-.2S,550" },
   ["ß"] = { 1, 26, "T l,0 l,700-.5h r-.1S,700-.5h r-.1S,390-.5h c,390-.5h",
     "T c,390-.5h r,390-.5h r,d .48w,d" },
 }
@@ -223,8 +227,28 @@ end
 
 local function sign_of(x) return x > 0.01 and 1 or x < -0.01 and -1 or 0 end
 
+--- How far a round corner may reach along a line of a tube, `thick` across: to the end of the line,
+--- or to its middle, if the next corner is round as well.
+local function room_of(corner, next_one, is_end, thick, axis)
+  local long = math.abs(next_one[axis] - corner[axis])
+  if is_end then return long + thick / 2 end
+  return next_one.is_sharp and long or (long + thick) / 2
+end
+
+--- The reach of a corner of a tube, along x and along y.
+local function reach_of(points, i, is_closed, width, height, most)
+  local count, reach = #points, { most[1], most[2] }
+  for _, k in ipairs { (i - 2) % count + 1, i % count + 1 } do
+    local axis = math.abs(points[k][2] - points[i][2]) > 0.01 and 2 or 1
+    local is_end = not is_closed and (k == 1 or k == count)
+    local room = room_of(points[i], points[k], is_end, axis == 1 and width or height, axis)
+    reach[axis] = math.min(reach[axis], room)
+  end
+  return reach
+end
+
 --- One side of a tube through its points: 1 is left of the way, -1 right of it.
-local function side_of(points, side, is_closed, width, height, reach)
+local function side_of(points, side, is_closed, width, height, most)
   local line, count = {}, #points
   for i, p in ipairs(points) do
     local before = points[i - 1] or is_closed and points[count]
@@ -237,6 +261,7 @@ local function side_of(points, side, is_closed, width, height, reach)
     if turn == 0 or p.is_sharp then
       line[#line + 1] = { x, y }
     else
+      local reach = reach_of(points, i, is_closed, width, height, most)
       local is_inner = turn == side
       local rx = is_inner and math.max(reach[1] - width, 12) or reach[1]
       local ry = is_inner and math.max(reach[2] - height, 12) or reach[2]
