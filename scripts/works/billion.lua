@@ -11,14 +11,15 @@ local PAPER, INK, RED = "#f9e3dc", "#1b1418", "#e5243f"
 local MINUTES = 60 * 24 * 365
 
 local lives = {
-  { name = "Mouse", pulse = 600, years = 3, from = 0.4, colour = RED, label = { 152, 262 } },
-  { name = "Cat", pulse = 140, years = 15, from = 1.8, colour = "#f0803c", label = { 152, 424 } },
+  { name = "Mouse", pulse = 600, years = 3, from = 0.4, colour = RED, label = { 150, 318 } },
+  { name = "Cat", pulse = 140, years = 15, from = 1.8, colour = "#f0803c",
+    label = { 312, 470 } },
   { name = "Elephant", pulse = 30, years = 65, from = 3.2, colour = "#7d4a7a",
-    label = { 310, 548 } },
-  { name = "You", pulse = 70, years = 80, from = 7.1, colour = INK },
+    label = { 664, 548 } },
+  { name = "You", pulse = 70, years = 80, from = 7.8, colour = INK },
 }
-local BILLION, YOURS = 5.2, 6.9 -- when rectangles become squares, and when you come
-local FLOOR, LEFT, ACROSS, UP = 640, 92, 13.2, 0.9 -- units for a year, and for a beat a minute
+local BILLION, YOURS = 5.2, 7.6 -- when rectangles become squares, and when you come
+local FLOOR, LEFT, ACROSS, UP = 640, 92, 13.2, 0.7 -- units for a year, and for a beat a minute
 
 --- The beats of a life, in billions.
 local function beats_of(life) return life.pulse * life.years * MINUTES / 1e9 end
@@ -36,7 +37,7 @@ local function beat(life, time)
   return knock
 end
 
-local SIDE, GAP = 220, 14 -- of the square of a billion; between squares
+local SIDE, GAP = 202, 20 -- of the square of a billion; between squares
 
 --- The left edge of the square that a life becomes.
 local function place(i)
@@ -70,10 +71,9 @@ local function label(art, life, time)
   local shown = comes * (1 - motion.span(time, BILLION - 0.3, 0.3))
   if shown == 0 then return end
   local x, y = life.label[1] - 30 * (1 - comes), life.label[2]
-  local name = line(life.name, x, y, 92, life.colour)
   local figures = ("%d a minute × %d years"):format(life.pulse, life.years)
-  art[#art + 1] = name:fade(shown)
-  art[#art + 1] = line(figures, x + name:metrics().width + 18, y, 40, INK):fade(shown)
+  art[#art + 1] = line(life.name, x, y, 64, life.colour):fade(shown)
+  art[#art + 1] = line(figures, x, y + 44, 34, INK):fade(shown)
 end
 
 --- The name of a life in its square, with how many billions it has.
@@ -82,9 +82,76 @@ local function total(art, life, i, x, y, h, time)
     or motion.span(time, BILLION + 0.5 + 0.12 * i, 0.3)
   if shown == 0 then return end
   local large = life.name == "You"
-  art[#art + 1] = line(("%.1f"):format(beats_of(life)), x + 18, y + (large and 204 or 118),
-    large and 250 or 130, PAPER):fade(shown)
+  art[#art + 1] = line(("%.1f"):format(beats_of(life)), x + 18, y + (large and 204 or 104),
+    large and 250 or 108, PAPER):fade(shown)
   art[#art + 1] = line(life.name, x + 20, y + h - 22, large and 84 or 48, PAPER):fade(shown)
+end
+
+--- What makes an animal of the square x, y, w, h; out: how far it has popped.
+local animals = {
+  Mouse = function(x, y, w, h, out, time, colour)
+    local art = {}
+    for i, at in ipairs { 0.3, 0.78 } do
+      local ear = circle { x + at * w, y - 16, 40, fill = colour }
+        | circle { x + at * w, y - 18, 22, fill = "#f7a7a3" }
+      art[i] = ear:scale(out, { x + at * w, y + 20 })
+    end
+    local wag = 10 * math.sin(9 * time)
+    art[3] = stroke { width = 13, cap = "round", fill = colour, to = out,
+      d = ("M%g %g C%g %g %g %g %g %g"):format(x + 8, y + h - 12, x - 66, y + h, x - 20, y + h - 90,
+        x - 62, y + h - 118 + wag) }
+    return union(art)
+  end,
+  Cat = function(x, y, w, _, out, time, colour)
+    local art, twitch = {}, 10 * math.max(0, math.sin(2.4 * time)) ^ 20
+    for i, side in ipairs { 1, -1 } do
+      local corner = side == 1 and x or x + w
+      local ear = polygon { { corner, y + 4 }, { corner + side * 12, y - 64 },
+        { corner + side * 82, y + 4 }, fill = colour }
+        | polygon { { corner + side * 17, y + 4 }, { corner + side * 22, y - 36 },
+          { corner + side * 58, y + 4 }, fill = "#f9b98a" }
+      art[i] = ear:rotate(i == 2 and twitch or 0, corner, y):scale(1, out, corner, y)
+    end
+    return union(art)
+  end,
+  Elephant = function(x, y, w, h, out, time, colour)
+    local swing = 8 * math.sin(3 * time)
+    local trunk = stroke { width = 42, cap = "round", fill = colour, to = out,
+      d = ("M%g %g C%g %g %g %g %g %g S%g %g %g %g"):format(x + w - 26, y + 42, x + w + 56, y + 36,
+        x + w + 24 + swing, y + 100, x + w + 24 + swing, y + h - 60, x + w + 50 + swing, y + h - 10,
+        x + w + 66 + swing, y + h - 52) }
+    local tusk = stroke { width = 16, cap = "round", fill = PAPER, to = out,
+      d = ("M%g %g Q%g %g %g %g"):format(x + w - 48, y + 100, x + w - 22, y + 122, x + w + 2,
+        y + 98) }
+    local ear = ellipse { x + 62, y + 2, 62, 38, fill = colour }
+      | ellipse { x + 60, y + 2, 44, 24, fill = "#a5709f" }
+    ear = ear:rotate(-16 + 0.6 * swing, x + 90, y + 20):scale(out, { x + 90, y + 20 })
+    return ear | trunk | tusk
+  end,
+}
+
+--- A heart about 0, 0, as large as 1.
+local heart = path { fill = RED, d = "M0 0.5 C-0.2 0.3 -0.55 0.1 -0.55 -0.18 "
+  .. "C-0.55 -0.5 -0.12 -0.55 0 -0.24 C0.12 -0.55 0.55 -0.5 0.55 -0.18 C0.55 0.1 0.2 0.3 0 0.5 Z" }
+
+--- An eye, which blinks.
+local function eye_of(x, y, time)
+  local open = (time % 1.7 > 1.58) and 0.15 or 1
+  return ellipse { x, y, 10, 10 * open, fill = INK } | ellipse { x + 3, y - 3, 3, 3 * open,
+    fill = PAPER }
+end
+
+--- What the square of a life becomes: an animal, one after another; yours gets a heart.
+local function alive(art, life, i, x, y, w, h, time)
+  local out = motion.span(time, BILLION + 0.75 + 0.17 * i, 0.4, "outBack")
+  if i == 4 then
+    local beats = beat(life, time - life.from)
+    art[#art + 1] = heart:scale(motion.span(time, life.from + 0.6, 0.4, "outBack")
+      * (88 + 16 * beats)):translate(x + w - 82, y + h - 74)
+  elseif out > 0 then
+    art[#art + 1] = animals[life.name](x, y, w, h, out, time, life.colour)
+    art[#art + 1] = eye_of(x + w - 26, y + 40, time + 0.4 * i):fade(math.min(1, out))
+  end
 end
 
 --- The headline: a question, and then what is found.
@@ -97,19 +164,18 @@ local function headline(art, time)
     local goes = motion.span(time, one[3], 0.2, "inCubic")
     if comes > 0 and goes < 1 then
       local set = line(one[1], 0, 0, 132, INK)
-      local words = set:translate(148 - 56 * motion.span(time, BILLION, 0.1),
-        148 + 130 * (1 - comes) - 130 * goes)
+      local words = set:translate(LEFT, 148 + 130 * (1 - comes) - 130 * goes)
       art[#art + 1] = clip(words, rect { 0, 40, W, 136 })
     end
   end
 end
 
 local function hearts()
-  local sound = score(10)
+  local sound = score(10.8)
   local notes = { { 180, 0.16, 0.07 }, { 92, 0.4, 0.16 }, { 46, 0.75, 0.4 }, { 62, 0.8, 0.3 } }
   for i, life in ipairs(lives) do
     local hertz, volume, length = table.unpack(notes[i])
-    local stop = i < 4 and lives[i + 1].from + (i == 3 and -1.4 or 0) or 9.7
+    local stop = i == 3 and BILLION + 0.5 or i < 3 and lives[i + 1].from or 10.5
     for time = life.from, stop, 60 / life.pulse do
       sound:add(time, score.thump(hertz, length), volume)
       if i > 1 then sound:add(time + 13 / life.pulse, score.thump(hertz * 0.9, length),
@@ -118,6 +184,7 @@ local function hearts()
   end
   for i, hertz in ipairs { 293.7, 370, 440 } do
     sound:add(BILLION + 0.55 + 0.12 * i, score.bell(hertz, 1.2), 0.2, 0.3 * (i - 2))
+    sound:add(BILLION + 0.75 + 0.17 * i, score.slide(2 * hertz, 5 * hertz, 0.09), 0.2)
   end
   for i, hertz in ipairs { 146.8, 220, 293.7, 370, 587.3 } do
     sound:add(lives[4].from + 0.04 * i, score.bell(hertz, 2), 0.17, 0.2 * (i - 3))
@@ -129,7 +196,7 @@ local function frame(f)
   local time = f.time
   local art = { rect { 0, 0, W, H, fill = PAPER } }
   local axes = 1 - motion.span(time, BILLION - 0.2, 0.3)
-  art[#art + 1] = rect { LEFT, FLOOR, W - LEFT - 92, 5, fill = INK }
+  art[#art + 1] = rect { LEFT, FLOOR, W - LEFT - 85, 5, fill = INK }
   for years = 0, 80, 20 do
     local words = years == 80 and "80 years" or tostring(years)
     art[#art + 1] = line(words, LEFT + years * ACROSS, FLOOR + 46, 32, INK,
@@ -140,8 +207,13 @@ local function frame(f)
     if time > life.from then
       local x, y, w, h = box_of(life, i, time)
       if i == 4 then x, y, w, h = yours(life, time) end
-      local swell = 7 * beat(life, time - life.from)
-      art[#art + 1] = rect { x, y - swell, w + swell, h + swell, fill = life.colour }
+      -- Ten beats a second lie between the frames: so fast a heart shivers, on twos.
+      local swell = i > 1 and 12 * beat(life, time - life.from) or 0
+      local shiver = i == 1 and 3 * (-1) ^ (f.index // 2) or 0
+      local aside = time > BILLION + 0.6 and swell / 2 or 0
+      x, y, w, h = x + shiver - aside, y - swell, w + swell, h + swell
+      art[#art + 1] = rect { x, y, w, h, fill = life.colour }
+      alive(art, life, i, x, y, w, h, time)
       if i < 4 then label(art, life, time) end
       total(art, life, i, x, y, h, time)
     end
@@ -152,5 +224,5 @@ local function frame(f)
   return cel(art)
 end
 
-return film { title = "A billion beats", size = { W, H }, fps = FPS, duration = 10,
+return film { title = "A billion beats", size = { W, H }, fps = FPS, duration = 10.8,
   sound = hearts(), frame = frame }

@@ -3,12 +3,13 @@
 local score = require "sound.score"
 
 local FONT, W, H, FPS = "../type/poster.ttf", 1080, 1920, 24
-local SHELL, SHADE, YOLK, GLOW = "#fff7ea", "#eadbc4", "#ffb400", "#ffd15c"
+local SHELL, SHADE, YOLK, GLOW, CRISP = "#fff7ea", "#eadbc4", "#ffb400", "#ffd15c", "#e3b878"
+local DARK, LEG = "#2a1a1f", "#f2622e"
 local CARD = 3.2 -- seconds of a card; the last one is longer
 
 local cards = {
   { from = 0, back = "#3f7d58", ink = "#fff7ea", word = "SOFT" },
-  { from = CARD, back = "#f25c54", ink = "#2a1a1f", word = "FRIED" },
+  { from = CARD, back = "#f25c54", ink = DARK, word = "FRIED" },
   { from = 2 * CARD, back = "#ffd9e0", ink = "#7a2b8f", word = "FREE" },
 }
 
@@ -98,107 +99,138 @@ local function soft(time)
     :translate(W / 2, 1190)
 end
 
+--- The white of a fried egg, with a crisp rim; it spreads, and sizzles.
+local function white(time, splat, fill)
+  local points, wobble = {}, motion.noise "white"
+  for i = 0, 11 do
+    local angle = i / 12 * 2 * math.pi
+    local sizzle = 12 * wobble(i * 3.1, 4 * time)
+    local r = (250 + 80 * wobble(i * 1.7)) * (0.4 + 0.6 * splat) + sizzle
+    points[#points + 1] = { 1.12 * r * math.cos(angle), r * math.sin(angle) }
+  end
+  local shape = nurbs { points = points, fill = CRISP }
+  return shape | shape:scale(0.93, { 0, 0 }):paint(fill)
+end
+
+--- The egg in the pan, from the splat at 0.7 on: the halves of its shell fly off behind it, and
+--- later it is tossed.
+local function in_pan(time)
+  local splat = motion.span(time, 0.7, 0.5, "outElastic")
+  local flip = motion.span(time, 1.85, 0.75)
+  local art, u = {}, motion.span(time, 0.72, 0.7)
+  for i, away in ipairs { -1, 1 } do
+    local half = i == 1 and above(shell(480), 0) or below(shell(480), 0)
+    art[#art + 1] = half:rotate(200 + 260 * u * away)
+      :translate(away * (190 + 1000 * u), -560 * u + 1300 * u * u)
+  end
+  local yolk = circle { 20, -10, 140, fill = YOLK } | circle { -30, -66, 26, fill = GLOW }
+  local turn = math.cos(2 * math.pi * flip)
+  local fried_egg = white(time, splat, turn > 0 and SHELL or SHADE)
+  if turn > 0 then
+    fried_egg = fried_egg | yolk:scale(1 + 0.25 * (1 - splat), 1 - 0.25 * (1 - splat), 20, -10)
+  end
+  art[#art + 1] = fried_egg:scale(1, turn):rotate(-16):translate(0, -1250 * flip * (1 - flip))
+  return union(art)
+end
+
 --- Fried: the egg falls, breaks in the pan, and is tossed once.
 local function fried(time)
   local falls = motion.span(time, 0.1, 0.6, "inQuad")
-  local splat = motion.span(time, 0.7, 0.5, "outElastic")
-  local flip = motion.span(time, 1.85, 0.75)
-  local pan = circle { 0, 0, 450, fill = cards[2].ink } | rect { -66, 380, 132, 620, radius = 60,
-    fill = cards[2].ink } | circle { 0, 0, 392, fill = "#46303a" }
-  local art = { pan }
-  if falls < 1 then
-    art[#art + 1] = shell(560):rotate(200 * falls):translate(0, -1500 + 1500 * falls)
-  else
-    local points, wobble = {}, motion.noise "white"
-    for i = 0, 11 do
-      local angle = i / 12 * 2 * math.pi
-      local sizzle = 12 * wobble(i * 3.1, 4 * time)
-      local r = (250 + 80 * wobble(i * 1.7)) * (0.4 + 0.6 * splat) + sizzle
-      points[#points + 1] = { 1.12 * r * math.cos(angle), r * math.sin(angle) }
-    end
-    local yolk = circle { 20, -10, 140, fill = YOLK } | circle { -30, -66, 26, fill = GLOW }
-    local turn = math.cos(2 * math.pi * flip)
-    local whole = { nurbs { points = points, fill = turn > 0 and SHELL or SHADE },
-      turn > 0 and yolk:scale(1 + 0.25 * (1 - splat), 1 - 0.25 * (1 - splat), 20, -10) }
-    art[#art + 1] = union(whole):scale(1, turn):rotate(-16)
-      :translate(0, -2300 * flip * (1 - flip))
-    for i, away in ipairs { -1, 1 } do -- the halves of the shell fly off
-      local u = motion.span(time, 0.7, 0.8)
-      local half = i == 1 and above(shell(560), 0) or below(shell(560), 0)
-      art[#art + 1] = half:rotate(200 + 260 * u * away)
-        :translate(away * 1100 * u, -700 * u + 1300 * u * u)
-    end
-  end
+  local pan = circle { 0, 0, 450, fill = DARK } | rect { -66, 380, 132, 620, radius = 60,
+    fill = DARK } | circle { 0, 0, 392, fill = "#46303a" }
+  local fallen = falls < 1 and shell(560):rotate(200 * falls):translate(0, -1500 + 1500 * falls)
+    or in_pan(time)
   local tossed = keys { { 0.66, 0 }, { 0.74, 26, "outQuad" }, { 1.1, 0, "outBack" },
     { 1.5, 0 }, { 1.75, 60, "inOutSine" }, { 1.87, -60, "inQuad" }, { 2.2, 0, "inOutSine" },
     { 2.58, 0 }, { 2.66, 30, "outQuad" }, { 2.95, 0, "outBack" } }
-  return union(art):rotate(16):translate(W / 2, 1160 + tossed:at(time))
+  return union { pan, fallen }:rotate(16):translate(W / 2, 1160 + tossed:at(time))
 end
 
-local function chick(time)
-  local blink = (time % 1.5 > 1.38) and 0.1 or 1
+--- A chick with a piece of its shell for a hat; aside: how far it has turned to the right.
+local function chick(time, aside)
+  local blink = (time < 3.9 and time % 1.5 > 1.38) and 0.1 or 1
   local chirp = motion.span(time, 2.5, 0.15) - motion.span(time, 2.8, 0.15)
-    + motion.span(time, 3.2, 0.15) - motion.span(time, 3.6, 0.2)
-  local beak = path { d = "M-48 0 L0 -40 L48 0 Z", fill = "#f2622e" }:translate(0, -26 * chirp)
+    + motion.span(time, 4, 0.12) - motion.span(time, 4.5, 0.2)
+  local beak = path { d = "M-48 0 L0 -40 L48 0 Z", fill = LEG }:translate(0, -26 * chirp)
     | path { d = "M-40 4 L0 40 L40 4 Z", fill = "#d94a1e" }:translate(0, 16 * chirp)
-  local tuft = stroke { d = "M0 -250 C-10 -320 -60 -330 -70 -310 M6 -250 C16 -340 76 -350 84 -320",
-    width = 20, cap = "round", fill = YOLK }
   local eyes = {}
   for i, x in ipairs { -92, 92 } do
-    eyes[i] = circle { x, -60, 30, fill = "#2a1a1f" } | circle { x + 9, -72, 10, fill = SHELL }
+    eyes[i] = circle { x, -60, 30, fill = DARK } | circle { x + 9, -72, 10, fill = SHELL }
     eyes[i] = eyes[i]:scale(1, blink, x, -60)
   end
-  return union { tuft, ellipse { 0, 0, 262, 260, fill = YOLK },
-    ellipse { -150, 20, 46, 32, fill = "#ff8f5a" }, ellipse { 150, 20, 46, 32, fill = "#ff8f5a" },
-    union(eyes), beak }
+  local face = (union(eyes) | beak):scale(1 - 0.35 * aside, 1):translate(130 * aside, 0)
+  local hat = above(shell(900), 10):scale(0.46):rotate(18 - 30 * aside)
+  return ellipse { 0, 0, 262, 260, fill = YOLK } | face | hat:translate(74 - 60 * aside, -208)
 end
 
---- Free: the egg rocks, cracks, and lifts its own lid.
+--- Two legs from the shell down to the ground, which step when it runs; out: how far they are out.
+local function legs(out, run)
+  local art = {}
+  for i, x in ipairs { -80, 80 } do
+    local swing = math.sin(26 * run + i * math.pi)
+    local lift = run > 0 and 46 * math.max(0, math.cos(26 * run + i * math.pi)) or 0
+    local foot, ground = x + (run > 0 and 110 * swing or 0), 380 + 180 * out - lift
+    art[i] = stroke { width = 30, cap = "round", join = "round", fill = LEG, points = {
+      { x, 370 }, { foot, ground - 16 } } }
+      | stroke { width = 26, cap = "round", join = "round", fill = LEG, points = {
+        { foot - 46, ground }, { foot, ground - 22 }, { foot + 56, ground } } }
+  end
+  return union(art)
+end
+
+--- Two hops of joy, and then off, to the right.
+local up_and_down = keys { { 3.02, 0 }, { 3.14, 30, "outQuad" }, { 3.3, -110, "outQuad" },
+  { 3.46, 0, "inQuad" }, { 3.54, 34, "outQuad" }, { 3.72, -140, "outQuad" },
+  { 3.9, 0, "inQuad" }, { 3.97, 26, "outQuad" }, { 4.1, 0, "inOutSine" } }
+local to_the_right = keys { { 3.95, 0 }, { 4.15, -70, "outQuad" }, { 4.65, 1250, "inQuad" } }
+
+--- What is left when the lid is off: a shell with a chick, with two legs.
+local function hatched(time)
+  local whole, line = shell(900), 10
+  local up = motion.span(time, 2.15, 0.6, "outBack")
+  local out = motion.span(time, 2.85, 0.25, "outBack")
+  local aside = motion.span(time, 3.5, 0.35, "inOutSine")
+  local run = math.max(0, time - 4.15)
+  local height = up_and_down:at(time) - 24 * math.abs(math.sin(26 * run))
+  local pressed = math.max(0, height) / 300
+  local body = union { clip(ellipse { 0, line, 345, 90, fill = SHADE }, egg(900)),
+    chick(time, aside):translate(0, 60 - 150 * up), below(whole, line) }
+  local lean = 12 * motion.span(time, 4.12, 0.2) - 8 * motion.span(time, 3.95, 0.15)
+    + (run > 0 and 3 * math.sin(26 * run) or 0)
+  local stands = body:scale(1 + pressed, 1 - pressed, 0, 450):rotate(lean, 0, 450)
+    :translate(0, -110 * out + math.max(0, height))
+  return (legs(out, run):translate(0, -110 * out) | stands)
+    :translate(to_the_right:at(time), math.min(0, height))
+end
+
+--- Free: the egg rocks, cracks, throws off its lid, and goes its way.
 local function free(time)
   local lands = motion.span(time, 0.1, 0.5, "outBack")
   local rock = 9 * math.sin(13 * (time - 0.9)) * math.exp(-((time - 1.2) / 0.28) ^ 2)
     + 13 * math.sin(15 * (time - 1.7)) * math.exp(-((time - 1.95) / 0.2) ^ 2)
-  local up = motion.span(time, 2.15, 0.6, "outBack")
-  local lid = keys { { 2.15, 0 }, { 2.6, 1.5, "outCubic" }, { 3.05, 0.86, "outBounce" } }:at(time)
   local whole, line = shell(900), 10
-  local art
-  if time < 1.7 then
-    art = { whole }
-  elseif up == 0 then
-    art = { whole, stroke { width = 12, join = "round", fill = cards[3].ink,
+  if time < 2.15 then
+    local crack = stroke { width = 12, join = "round", fill = cards[3].ink,
       points = { { -350, line }, { -300, line + 26 }, { -200, line - 26 }, { -100, line + 26 },
-        { 0, line - 26 }, { 100, line + 26 } }, to = motion.span(time, 1.7, 0.3) } }
-  else
-    local tilt = 7 * math.sin(3 * (time - 2.15))
-    local head = chick(time):translate(0, 60 - 150 * up)
-    art = { clip(ellipse { 0, 10, 345, 90, fill = SHADE }, egg(900)), head, below(whole, line),
-      above(whole, line):translate(0, -330 * lid):rotate(tilt, 0, -300) }
+        { 0, line - 26 }, { 100, line + 26 } }, to = motion.span(time, 1.7, 0.3) }
+    local art = time < 1.7 and whole or whole | crack
+    return art:rotate(rock, 0, 450):scale(lands, { 0, 450 }):translate(W / 2, 1376)
   end
-  return union(art):rotate(rock, 0, 450):scale(lands, { 0, 450 }):translate(W / 2, 1290)
+  local u = motion.span(time, 2.15, 0.8)
+  local lid = above(whole, line):rotate(-150 * u, 0, -200)
+    :translate(-1150 * u, -820 * u + 1500 * u * u)
+  return union { hatched(time), lid }:translate(W / 2, 1376)
 end
 
 -- ---------------------------------------------------------------- the film
 
 local scenes = { soft, fried, free }
 
---- The three bars at the top, as such stories have them.
-local function bars(time, ink)
-  local art = {}
-  for i, card in ipairs(cards) do
-    local x, w = 48 + (i - 1) * 332, 320
-    local u = motion.span(time, card.from, i == 3 and 4.6 or CARD)
-    art[#art + 1] = rect { x, 60, w, 12, radius = 6, fill = rgb(ink, 0.3) }
-    art[#art + 1] = rect { x, 60, math.max(12, w * u), 12, radius = 6, fill = ink }
-      :fade(u > 0 and 1 or 0)
-  end
-  return union(art)
-end
-
 local function card_of(i, time)
   local card = cards[i]
   local local_time = time - card.from
   return union { rect { 0, 0, W, H, fill = card.back }, word(card, local_time, 560),
-    scenes[i](local_time), bars(time, card.ink) }
+    scenes[i](local_time) }
 end
 
 local function frame(f)
@@ -212,7 +244,7 @@ local function frame(f)
 end
 
 local function foley()
-  local sound = score(11)
+  local sound = score(11.6)
   local function pluck(time, names)
     for i, hertz in ipairs(names) do
       sound:add(time + 0.07 * i, score.bell(hertz, 0.5), 0.2, 0.2 * (i - 2.5))
@@ -236,12 +268,20 @@ local function foley()
   for i = 0, 5 do sound:add(2 * CARD + 0.85 + 0.24 * i, score.thump(120, 0.1), 0.35) end
   sound:add(2 * CARD + 1.72, score.click(0.95, 0.25), 0.4)
   sound:add(2 * CARD + 2.15, score.slide(260, 900, 0.35), 0.3)
-  for _, time in ipairs { 2.5, 2.65, 3.2, 3.36, 3.5 } do
+  for _, time in ipairs { 2.5, 2.65, 4, 4.12, 4.24 } do
     sound:add(2 * CARD + time, score.slide(2300, 3100, 0.09), 0.3)
   end
-  pluck(2 * CARD + 3.7, { 392, 494, 587, 784, 988 })
+  sound:add(2 * CARD + 2.85, score.slide(500, 900, 0.14), 0.3)
+  for _, time in ipairs { 3.14, 3.56 } do -- hops, and landings
+    sound:add(2 * CARD + time, score.slide(300, 760, 0.18), 0.28)
+    sound:add(2 * CARD + time + 0.32, score.thump(130, 0.14), 0.5)
+  end
+  for step = 0, 5 do
+    sound:add(2 * CARD + 4.2 + 0.08 * step, score.click(0.9, 0.05), 0.4, 0.18 * step)
+  end
+  pluck(2 * CARD + 4.6, { 392, 494, 587, 784, 988 })
   return sound:address()
 end
 
-return film { title = "An egg, three ways", size = { W, H }, fps = FPS, duration = 11,
+return film { title = "An egg, three ways", size = { W, H }, fps = FPS, duration = 11.6,
   sound = foley(), frame = frame }

@@ -1,6 +1,8 @@
 -- Quarter turns: sixty-four quarters of discs turn, and circles become pinwheels, leaves, and
 -- circles again. Every tile makes four quarter turns, each a little later than its neighbour
--- nearer the middle, so the last frame leads into the first one without a seam.
+-- nearer the middle, so the last frame leads into the first one without a seam. One of them has a
+-- mind of its own.
+local score = require "sound.score"
 
 local SIZE, COUNT = 1080, 8
 local TILE = 116
@@ -35,31 +37,46 @@ local prints = {
 local colours = { { CORAL, GOLD }, { GREEN, PINK }, { PINK, INK }, { INK, CORAL }, { GOLD, GREEN } }
 
 --- Which print and colours a tile has: blocks of two by two are alike, so that they can be discs.
-local function art_of(column, row)
+local function art_of(column, row, is_voice)
   local a, b = column // 2, row // 2
   local pair = colours[1 + (2 * a + 3 * b + (a * b) // 3) % #colours]
-  return prints[1 + (a + 2 * b + a // 2) % #prints](pair[1], pair[2])
+  return prints[1 + (a + 2 * b + a // 2) % #prints](pair[1], is_voice and PAPER or pair[2])
 end
 
---- The quarter turns that a tile has made: four in the whole film, with rests between them.
-local function turns(share, late)
+-- A quarter turn: a little way back, over the goal, and home. More than a few degrees would open
+-- slivers in the discs.
+local quarter_turn = keys { { 0, 0 }, { 0.09, -0.03, "outSine" }, { 0.6, 1.02, "inOutCubic" },
+  { 0.7, 1, "inOutSine" } }
+
+-- The one voice against the choir: two turns with the others, then one the other way and too late,
+-- when all the others rest, and then a whirl of three quarters, and it is home with them.
+local own_way = keys { { 2, 2 }, { 2.55, 2 }, { 2.64, 2.05, "outSine" },
+  { 2.95, 0.95, "inOutCubic" }, { 3.02, 1, "inOutSine" }, { 3.16, 1 }, { 3.26, 0.9, "outSine" },
+  { 3.8, 4.06, "inOutCubic" }, { 3.92, 4, "inOutSine" } }
+
+--- The quarter turns that a tile has made, four in the whole film with rests between them; and how
+--- large it is while it turns: the voice comes forward.
+local function turns(share, late, is_voice)
   local u = (4 * share - late) % 4
-  local whole = u // 1
-  return whole + ease "inOutBack"(math.min(1, (u - whole) / 0.7))
+  local is_alone = is_voice and u >= 2
+  local made = is_alone and own_way:at(u) or u // 1 + quarter_turn:at(u % 1)
+  return made, 1 + (is_alone and 0.34 or -0.16) * math.sin(math.pi * (made % 1)) ^ 2
 end
 
 --- A tile, its quarter in the middle of the block of two by two when it is at rest.
-local tiles = {}
+local tiles = {} -- the voice is the last one, above its neighbours
 for row = 0, COUNT - 1 do
   for column = 0, COUNT - 1 do
     local across, down = column % 2, row % 2
     local start = 90 * (down == 0 and 2 + across or 1 - across)
     local is_pinwheel = (column // 2 + row // 2) % 2 == 0 -- others open like a book
+    local is_voice = column == 3 and row == 3
     local from_middle = math.max(math.abs(column - 3.5), math.abs(row - 3.5)) - 0.5
-    tiles[#tiles + 1] = { start = start, late = 0.085 * from_middle,
+    table.insert(tiles, is_voice and #tiles + 1 or 1, { start = start, late = 0.085 * from_middle,
+      is_voice = is_voice,
       way = (is_pinwheel or across == down) and 1 or -1,
       x = MARGIN + (column + 0.5) * TILE, y = MARGIN + (row + 0.5) * TILE,
-      art = art_of(column, row):translate(-TILE / 2, -TILE / 2) }
+      art = art_of(column, row, is_voice):translate(-TILE / 2, -TILE / 2) })
   end
 end
 
@@ -67,13 +84,31 @@ local function frame(f)
   local share = f.index / f.count -- of the loop: after the last frame it would be 1, which is 0
   local shown = { rect { 0, 0, SIZE, SIZE, fill = PAPER } }
   for _, tile in ipairs(tiles) do
-    local u = turns(share, tile.late)
-    local lifted = 1 - 0.16 * math.sin(math.pi * (u % 1)) ^ 2
-    shown[#shown + 1] = tile.art:rotate(tile.start + tile.way * 90 * u):scale(lifted)
+    local made, size = turns(share, tile.late, tile.is_voice)
+    shown[#shown + 1] = tile.art:rotate(tile.start + tile.way * 90 * made):scale(size)
       :translate(tile.x, tile.y)
   end
   return cel(shown)
 end
 
+--- Four brushed clicks of wood for each turn, from the middle outwards, and a bell for the voice.
+local function wood()
+  local sound, step = score(6), 1.5
+  for turn = 0, 3 do
+    for ring = 0, 3 do
+      local time = step * (turn + 0.5 + 0.085 * ring)
+      for _, side in ipairs { -1, 1 } do
+        sound:add(time, score.click(0.3 + 0.1 * ring, 0.14), 0.3, 0.3 * ring * side)
+      end
+      sound:add(time, score.thump(({ 262, 330, 294, 392 })[turn + 1] + 40 * ring, 0.07), 0.22)
+    end
+  end
+  sound:add(step * 2.85, score.bell("G5", 0.7), 0.2)
+  for i, tone in ipairs { "D5", "E5", "G5", "C6" } do
+    sound:add(step * (3.4 + 0.09 * i), score.bell(tone, 0.4 + 0.15 * i), 0.14)
+  end
+  return sound:address()
+end
+
 return film { title = "Quarter turns", size = { SIZE, SIZE }, fps = 24, duration = 6,
-  frame = frame }
+  sound = wood(), frame = frame }
