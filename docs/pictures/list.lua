@@ -7,6 +7,7 @@
 --   grid     a contact sheet with this number of columns and rows, instead of a frame
 --   background   a colour behind a frame that is transparent
 --   size     in pixels; of a frame, or what the contact sheet is made smaller to
+--   crop     x,y,w,h: only this part of a frame of that size
 --   quality  of a loop, 50 by default
 --   fps      of a loop, 12 by default
 --   most     bytes that a loop may have, 150,000 by default
@@ -22,7 +23,8 @@ local list = {
   { name = "demo", script = "scripts/demo.lua", frame = 193, size = "800x450" },
   { name = "moving", script = "docs/pictures/moving.lua", loop = "all", size = "960x540",
     fps = "24", quality = "32", most = 2200000 },
-  { name = "little-one", script = "scripts/film.lua", frame = 463, size = "400x225" },
+  { name = "little-one", script = "scripts/film.lua", frame = 463, size = "960x540",
+    still = "webp" },
   { name = "town", script = "scripts/town.lua", frame = 97, size = "960x540", still = "webp",
     allow = "scripts" },
   { name = "town_zoom", script = "scripts/town/zoom.lua", frame = 190, size = "270x480",
@@ -43,7 +45,7 @@ local list = {
     allow = "scripts" }, -- two frames that are the same: grain is small only in a video
   { name = "works/billion", script = "scripts/works/billion.lua", frame = 229, size = "960x540",
     still = "webp", allow = "scripts" },
-  { name = "works/egg", script = "scripts/works/egg.lua", frame = 232, size = "540x960",
+  { name = "works/egg", script = "scripts/works/egg.lua", frame = 232, size = "360x640",
     still = "webp", allow = "scripts" },
   { name = "works/slip", script = "scripts/works/slip.lua", frame = 186, size = "960x540",
     still = "webp", allow = "scripts" },
@@ -86,6 +88,14 @@ local list = {
   { name = "light_table", script = "scripts/light_table.lua", frame = 30, size = "560x315" },
   { name = "parallax", script = "scripts/parallax.lua", frame = 24, size = "480x270" },
   { name = "pan", script = "scripts/pan.lua", frame = 30, size = "480x270" },
+  { name = "terapixel", script = "docs/pictures/terapixel.lua", size = "480x270", still = "webp",
+    parts = {
+      { script = "scripts/terapixel.lua", size = "630x630", crop = "211,198,208,360",
+        file = "terapixel.1.png" },
+      { script = "scripts/terapixel.lua", size = "21667x21667", crop = "9258,14857,208,360",
+        file = "terapixel.2.png" },
+      { script = "scripts/terapixel.lua", size = "693333x693333", crop = "299665,480688,208,360",
+        file = "terapixel.3.png" } } },
   { name = "rack_focus", script = "scripts/rack_focus.lua", frame = 54, size = "640x267" },
   { name = "rack-focus", script = "scripts/rack_focus.lua", grid = "1x3", size = "336x456" },
   { name = "lip_cels", script = "scripts/lip_cels.lua", frame = 24, size = "480x270" },

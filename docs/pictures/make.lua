@@ -47,6 +47,7 @@ local function render(script, picture, output, argument, options)
   local frames = picture.loop or picture.frame or 1
   if frames ~= "all" then add("--frames", tostring(frames)) end
   if picture.size then add("--size", picture.size) end
+  if picture.crop then add("--crop", picture.crop) end
   if picture.onion then add("--onion", picture.onion) end
   if picture.background then add("--background", picture.background) end
   if picture.set then add("--set", picture.set) end

@@ -97,25 +97,38 @@ function sizeOf(file) {
 /** Where a file of docs/ is in the site. */
 const placeOf = file => posix.relative("docs", file);
 
-/** A picture with its size, which is copied to pictures/. It is what a film or a plane of the same
- * name in out/docs, which `./run docs` makes, shows until it plays. */
+/** The film of a picture's name: beside it, or in out/docs, where `./run docs` makes them; or
+ * nothing. */
+function filmOf(file, name) {
+  const beside = file.replace(/[.]\w+$/, ".mp4");
+  if (fs.existsSync(beside)) {
+    files.add(beside);
+    return beside;
+  }
+  if (!fs.existsSync(`out/docs/${name}.mp4`)) return undefined;
+  films.add(`${name}.mp4`);
+  return `${name}.mp4`;
+}
+
+/** A picture with its size, which is copied to pictures/. It is what its film, or the plane of the
+ * same name in out/docs, shows until it plays. */
 function showPicture(page, token, about) {
   const file = posix.join(posix.dirname(page.file), token.attrGet("src"));
   const { width, height } = sizeOf(file);
   files.add(file);
   const address = way(page.address, placeOf(file));
-  const film = posix.relative("docs/pictures", file).replace(/[.]\w+$/, "");
-  if (fs.existsSync(`out/docs/${film}.mp4`)) {
-    films.add(`${film}.mp4`);
-    return `<video src="${way(page.address, `${film}.mp4`)}" poster="${address}" preload="none" `
+  const name = posix.relative("docs/pictures", file).replace(/[.]\w+$/, "");
+  const film = filmOf(file, name);
+  if (film) {
+    return `<video src="${way(page.address, film)}" poster="${address}" preload="none" `
       + `controls loop playsinline aria-label="${escape(token.content)}" width="${width}" `
       + `height="${height}"></video>`;
   }
   const shown = `<img src="${address}" alt="${escape(about ?? token.content)}" width="${width
   }" height="${height}" loading="lazy" decoding="async">`;
-  if (fs.existsSync(`out/docs/${film}.plane`)) {
-    films.add(`${film}.plane`).add(PLAYER);
-    return `<celspan-film src="${way(page.address, `${film}.plane`)}" autoplay loop controls `
+  if (fs.existsSync(`out/docs/${name}.plane`)) {
+    films.add(`${name}.plane`).add(PLAYER);
+    return `<celspan-film src="${way(page.address, `${name}.plane`)}" autoplay loop controls `
       + `aria-label="${escape(token.content)}">${shown}</celspan-film><script type="module" `
       + `src="${way(page.address, PLAYER)}"></script>`;
   }

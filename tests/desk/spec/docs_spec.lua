@@ -46,8 +46,8 @@ end
 setup(function()
   folder = os.tmpname()
   os.remove(folder)
-  assert(os.execute(("mkdir -p %s/bin && ln -s '%s' %s/bin/celspan")
-    :format(folder, BINARY, folder)))
+  assert(os.execute(("mkdir -p %s/bin && cd %s && ln -s '%s' bin/celspan && ln -s '%s/scripts' .")
+    :format(folder, folder, BINARY, root)))
   assert(os.execute(("cd scripts && cp -r pictures drawings stage type paintings pencil pencil.lua "
     .. "demo/line.tsv %s/")
     :format(folder)))

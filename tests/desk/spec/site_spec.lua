@@ -140,6 +140,13 @@ describe("the site #plain", function()
     assert.is_truthy(pages["first-hour.html"]:find 'dot.webp" [^>]*width="480" height="270"')
   end)
 
+  it("plays a film where the picture of its name is", function()
+    local film = pages["gallery.html"]:match "<video [^>]*>"
+    assert.is_truthy(film:find('src="docs/pictures/little-one.mp4"', 1, true), film)
+    assert.is_truthy(film:find('poster="pictures/little-one.webp"', 1, true), film)
+    assert.is_truthy(film:find('width="960" height="540"', 1, true), film)
+  end)
+
   it("shows each complete script with its name, and with its picture if it has one", function()
     local shown, with_stage = 0, 0
     for _, block in ipairs(markdown.blocks "docs/cookbook.md") do
