@@ -118,8 +118,8 @@ local animals = {
     local swing = 8 * math.sin(3 * time)
     local trunk = stroke { width = 42, cap = "round", fill = colour, to = out,
       d = ("M%g %g C%g %g %g %g %g %g S%g %g %g %g"):format(x + w - 26, y + 42, x + w + 56, y + 36,
-        x + w + 24 + swing, y + 100, x + w + 24 + swing, y + h - 60, x + w + 50 + swing, y + h - 10,
-        x + w + 66 + swing, y + h - 52) }
+        x + w + 24 + swing, y + 100, x + w + 24 + swing, y + h - 60, x + w + 42 + swing, y + h - 10,
+        x + w + 56 + swing, y + h - 52) }
     local tusk = stroke { width = 16, cap = "round", fill = PAPER, to = out,
       d = ("M%g %g Q%g %g %g %g"):format(x + w - 48, y + 100, x + w - 22, y + 122, x + w + 2,
         y + 98) }

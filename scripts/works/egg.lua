@@ -65,8 +65,8 @@ local cup = path { fill = "#17352a", d = "M-330 60 H330 C320 300 190 380 70 400 
 cup = (cup | clip(rect { -400, 160, 800, 66, fill = "#f7b2a4" }, cup)):scale(1.07, 1)
 local spoon = ellipse { 0, 0, 70, 100, fill = "#f7b2a4" }
   | rect { -17, 80, 34, 560, radius = 17, fill = "#f7b2a4" }
-local toast = rect { -62, -560, 124, 560, radius = 30, fill = "#a8602c" }
-  | rect { -44, -542, 88, 524, radius = 20, fill = "#eab676" }
+local toast = rect { -62, -480, 124, 480, radius = 30, fill = "#a8602c" }
+  | rect { -44, -462, 88, 444, radius = 20, fill = "#eab676" }
 local knock = keys { { 0.6, 0 }, { 0.72, -0.2, "outQuad" }, { 0.95, 1, "inCubic" },
   { 1.15, 0.3, "outCubic" }, { 1.4, 1, "inCubic" }, { 1.6, 0.1, "outCubic" } }
 
@@ -279,7 +279,7 @@ local function foley()
   for step = 0, 5 do
     sound:add(2 * CARD + 4.2 + 0.08 * step, score.click(0.9, 0.05), 0.4, 0.18 * step)
   end
-  pluck(2 * CARD + 4.6, { 392, 494, 587, 784, 988 })
+  pluck(2 * CARD + 4.45, { 392, 494, 587, 784, 988 })
   return sound:address()
 end
 

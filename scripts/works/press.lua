@@ -61,9 +61,9 @@ local press = keys { { 0.5, 0 }, { 0.72, -0.12, "outQuad" }, { 0.83, 1, "inQuart
   { 7, -0.35, "inOutSine" }, { 8.5, -0.3, "inOutSine" } }
 
 --- How high the stubborn ball is: its whole shape, as a share, under the press and after it.
-local squash = keys { { 4.18, 1 }, { 4.23, 0.45, "outQuad" }, { 4.36, 0.42 },
+local squash = keys { { 4.215, 1 }, { 4.23, 0.45, "outQuad" }, { 4.36, 0.42 },
   { 4.52, 1.3, "outCubic" }, { 4.7, 0.85, "inOutSine" }, { 4.9, 1.06, "inOutSine" },
-  { 5.1, 1, "inOutSine" }, { 5.55, 1 }, { 5.6, 0.12, "outQuad" }, { 6.15, 0.1 },
+  { 5.1, 1, "inOutSine" }, { 5.585, 1 }, { 5.6, 0.12, "outQuad" }, { 6.15, 0.1 },
   { 6.3, 1.5, "outCubic" }, { 6.55, 0.8, "inOutSine" }, { 6.8, 1.1, "inOutSine" },
   { 7, 1, "inOutSine" } }
 
@@ -200,7 +200,7 @@ local function frame(f)
     local one = thing(n, time)
     if one and (belt:at(time) - n) * STEP > 30 then art[#art + 1] = one end
   end
-  return cel { ground, union(art):translate(-640, -400):scale(0.95):translate(724, 546) }
+  return cel { ground, union(art):translate(-640, -400):scale(0.95):translate(724, 554) }
 end
 
 return film { title = "The press", size = { W, H }, fps = FPS, duration = 8.5, sound = foley(),

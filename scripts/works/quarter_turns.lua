@@ -105,7 +105,7 @@ local function wood()
   end
   sound:add(step * 2.85, score.bell("G5", 0.7), 0.2)
   for i, tone in ipairs { "D5", "E5", "G5", "C6" } do
-    sound:add(step * (3.4 + 0.09 * i), score.bell(tone, 0.4 + 0.15 * i), 0.14)
+    sound:add(step * (3.2 + 0.13 * i), score.bell(tone, 0.18 + 0.06 * i), 0.16)
   end
   return sound:address()
 end
