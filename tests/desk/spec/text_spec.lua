@@ -77,6 +77,27 @@ describe("the font that ships", function()
     assert.is_true(truetype.build(poster.font()) == read(POSTER))
   end)
 
+  it("has a display font beside it, in which no line goes back on itself", function()
+    local seen = 0
+    local function check(a, b, c, name)
+      local x, y, u, v = b[1] - a[1], b[2] - a[2], c[1] - b[1], c[2] - b[2]
+      assert.is_false(x * v == y * u and x * u + y * v < 0, name)
+      seen = seen + 1
+    end
+    for _, glyph in ipairs(poster.font().glyphs) do
+      for _, form in ipairs(glyph.components and {} or { "least", "contours", "most" }) do
+        for _, contour in ipairs(glyph[form]) do
+          local count = #contour
+          for i = 1, count do
+            check(contour[i], contour[i % count + 1], contour[(i + 1) % count + 1],
+              ("U+%04X %s"):format(glyph.characters[1] or 0, form))
+          end
+        end
+      end
+    end
+    assert.is_true(seen > 5000, seen)
+  end)
+
   it("has a display font beside it, whose letters and accents become broader", function()
     local function width(words, wdth)
       local line = celspan.text { words, font = "../../../" .. POSTER, size = 1000,
