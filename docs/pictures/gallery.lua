@@ -16,7 +16,8 @@ local WORKS = {
     seconds = require("scripts.film.timing").seconds },
   { "town", "A winter night, and behind each window somebody is awake. [Go in](town.md).",
     "each room is a film of its own, a plane in the plane of the town",
-    "A village on a hill in a snowy night, with all its windows lit", seconds = 12 },
+    "A village on a hill in a snowy night, with all its windows lit", seconds = 12,
+    size = "a hundred rooms" }, -- no lines: rooms are added
   { "works/moon_cat", "Whoever pats the moon may get the day.",
     "`moon ~ town`: one exclusive-or is the whole picture",
     "A cat on a chimney and the full moon behind it, in black and white" },
@@ -131,23 +132,24 @@ local function put_picture(name, words)
   return ("![%s](pictures/%s)"):format(words, assert(picture_of[name], name))
 end
 
---- How long a work is, how long its script is, and where that is.
-local function facts_of(name, seconds)
+--- How long a work is, how long its script is or what it has, and where that is.
+local function facts_of(work)
+  local name, seconds = work[1], work.seconds
   local path = path_of(name)
   local text = system.read(path)
   seconds = seconds or tonumber(text:match "duration = ([%d.]+)")
     or text:match "frames = (%d+)" / 24
-  local lines = ("%d"):format(lines_of(path)):gsub("^(%d+)(%d%d%d)$", "%1,%2")
+  local lines = ("%d lines"):format(lines_of(path)):gsub("^(%d+)(%d%d%d) ", "%1,%2 ")
   local sound = name == "film" and "[with its sound](pictures/little-one.mp4) · "
     or text:find "sound =" and "sound · " or ""
-  return ("%.3g s · %s lines · %s[script](../%s)"):format(seconds, lines, sound, path)
+  return ("%.3g s · %s · %s[script](../%s)"):format(seconds, work.size or lines, sound, path)
 end
 
 --- A work, large: its title, its picture, its idea, what to look at, and where it is.
 local function put_work(work)
   local name, idea, look, words = table.unpack(work)
   io.write(("\n## %s\n\n%s\n\n%s\n\n"):format(title_of(name), put_picture(name, words), idea),
-    ("**Take it apart:** %s.\n\n%s\n"):format(look, facts_of(name, work.seconds)))
+    ("**Take it apart:** %s.\n\n%s\n"):format(look, facts_of(work)))
 end
 
 --- Two works side by side.
@@ -155,7 +157,7 @@ local function put_pair(left, right)
   local pictures, words = {}, {}
   for i, work in ipairs { left, right } do
     pictures[i] = put_picture(work[1], work[4])
-    words[i] = ("%s **Take it apart:** %s. %s"):format(work[2], work[3], facts_of(work[1]))
+    words[i] = ("%s **Take it apart:** %s. %s"):format(work[2], work[3], facts_of(work))
   end
   io.write(("\n## %s · %s\n"):format(title_of(left[1]), title_of(right[1])),
     "\n| | |\n|---|---|\n| ", table.concat(pictures, " | "), " |\n| ",
