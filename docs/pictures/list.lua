@@ -22,7 +22,7 @@ local SOUNDS, PLATES = { "docs/guide-film.md", "sounds" }, { "docs/cookbook.md",
 local list = {
   { name = "demo", script = "scripts/demo.lua", frame = 193, size = "800x450" },
   { name = "moving", script = "docs/pictures/moving.lua", loop = "all", size = "960x540",
-    fps = "24", quality = "32", most = 2200000 },
+    fps = "24", quality = "26", most = 2200000 },
   { name = "little-one", script = "scripts/film.lua", frame = 463, size = "960x540",
     still = "webp" },
   { name = "town", script = "scripts/town.lua", frame = 97, size = "960x540", still = "webp",

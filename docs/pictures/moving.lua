@@ -2,9 +2,9 @@
 -- lamplighter to his laugh. A circle closes on the lamp, and the dark rests before it begins again.
 local close = require "film.shots.close"
 
-local SIZE, FROM = { 1920, 1080 }, 14.3 -- FROM: in seconds of the film
-local radius = keys { { 5.1, 1700 }, { 5.44, 270, "inOutCubic" }, { 5.66, 250, "inOutSine" },
-                      { 5.87, 0, "inCubic" } }
+local SIZE, FROM = { 1920, 1080 }, 14.8 -- FROM: in seconds of the film
+local radius = keys { { 5.2, 1700 }, { 5.5, 225, "inOutCubic" }, { 5.72, 205, "inOutSine" },
+                      { 5.94, 0, "inCubic" } }
 local dark = rect { 0, 0, SIZE[1], SIZE[2], fill = "#0a0c20" }
 
 local shot = film { size = SIZE, fps = 24, duration = 6,
@@ -12,5 +12,5 @@ local shot = film { size = SIZE, fps = 24, duration = 6,
 
 return cut { title = "Little One, round and round", shot, over = function(f)
   local open = radius:at(f.time)
-  return cel { open > 0 and dark - circle { 1500, 400, open } or dark }
+  return cel { open > 0 and dark - circle { 1484, 396, open } or dark }
 end }

@@ -48,6 +48,8 @@ local near = keys { { 13.5, { 334, 396 } }, { 14.3, { 340, 388 }, "inOutSine" },
 local squash = keys { { 13.5, 1 }, { at.rises, 1 }, { at.catches - 0.05, 1 },
   { at.catches + 0.08, 1.025, "outQuad" }, { at.catches + 0.4, 0.992, "inOutSine" },
   { 18.9, 1, "inOutSine" } }
+--- The hand behind him and the degrees of its pole, whose hook hangs between hat and lamp.
+local staff = keys { { at.rises, { 292, 462, 25 } }, { 17.2, { 338, 462, 11 }, "inOutSine" } }
 
 local function pose_at(time)
   local pose = acting.at(time)
@@ -59,7 +61,8 @@ local function pose_at(time)
   pose.rise, pose.squash = 2.2 * breath, squash:at(time)
   pose.gaze, pose.brows = gaze:at(time), brows:at(time)
   pose.near, pose.near_turn = near:at(time), -10 + 2 * breath
-  pose.far, pose.far_turn, pose.pole, pose.pole_behind = { 338, 462 }, 12, 9, true
+  local x, y, turn = table.unpack(staff:at(time))
+  pose.far, pose.far_turn, pose.pole, pose.pole_behind = { x, y }, 12, turn, true
   pose.stream = 0.16 + 0.05 * math.sin(time)
   return pose
 end
@@ -75,8 +78,9 @@ local function flight(from)
     from[1], from[2] - 130, LAMP[1], LAMP[2] + 30))
 end
 
-local life = keys { { 13.5, 0.26 }, { 14.4, 0.22, "inOutSine" }, { 15.1, 0.34, "inOutSine" },
-  { 15.5, 0.4, "inOutSine" }, { 16.0, 0.62, "inOutSine" }, { at.rises, 0.8, "inOutSine" },
+local life = keys { { 13.5, 0.3 }, { 14.4, 0.3, "inOutSine" }, { 15.05, 0.1, "inOutSine" },
+  { 15.3, 0.36, "outQuad" }, { 15.5, 0.4, "inOutSine" }, { 16.0, 0.62, "inOutSine" },
+  { at.rises, 0.8, "inOutSine" },
   { at.rises + 0.4, 1, "outQuad" }, { at.enters, 1 }, { at.enters + 0.2, 0.5, "inOutSine" },
   { at.catches, 0.4 } }
 
@@ -84,8 +88,8 @@ local life = keys { { 13.5, 0.26 }, { 14.4, 0.22, "inOutSine" }, { 15.1, 0.34, "
 local function spark_at(time, palm)
   local u = motion.span(time, at.rises + 0.3, at.enters - at.rises - 0.3)
   local hop = motion.span(time, at.rises, 0.3)
-  if u == 0 then return { palm[1], palm[2] - 26 - 30 * math.sin(math.pi * hop) * hop } end
-  local trail = spark.trail(flight { palm[1], palm[2] - 26 }, up(u), 0.2)
+  if u == 0 then return { palm[1], palm[2] - 44 - 30 * math.sin(math.pi * hop) * hop } end
+  local trail = spark.trail(flight { palm[1], palm[2] - 44 }, up(u), 0.2)
   return trail[#trail], u < 1 and trail or nil
 end
 
@@ -108,8 +112,8 @@ local flakes = {
     sway = 20 }),
   middle = snow.curtain("close middle", { count = 44, size = { 4, 8 }, fall = 140, drift = -40,
     sway = 34 }),
-  near = snow.curtain("close near", { count = 9, size = { 26, 52 }, fall = 260, drift = -90,
-    sway = 60, soft = 0.7 }),
+  near = snow.curtain("close near", { count = 5, size = { 18, 34 }, fall = 260, drift = -90,
+    sway = 60, soft = 0.9 }),
 }
 
 local push = keys { { 13.5, 0 }, { 20.5, 70, "inOutSine" } }
@@ -154,7 +158,7 @@ function shot.draw(time)
     set:plane("rim", 0, light.about(lx, ly, reach, strength + 1.5 * level * breath,
       light.at("near", time)), body - body:translate(-9, 7))
   end
-  if inside < 1 then set:add(0, spark.draw(time, place[1], place[2], 24, alive, trail)) end
+  if inside < 1 then set:add(0, spark.draw(time, place[1], place[2], 34, alive, trail)) end
   for _, spoken in ipairs(breaths) do
     local age = time - spoken
     set:add(0, spark.puff(age, 866 + 90 * age, 706 + 40 * age, 30, 0.7))
