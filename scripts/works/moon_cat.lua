@@ -13,7 +13,8 @@ local head = keys { { 0.8, { 0, 0, 0 } }, { 1.1, { 6, -6, 12 }, SMOOTH }, { 1.9,
   { 4.5, { -26, 16, -4 }, SMOOTH }, { 4.8, { -28, 18, -6 } }, { 4.95, { 30, -6, 6 }, FAST },
   { 5.4, { 16, -14, 18 }, SMOOTH }, { 6.1, { 4, -18, -6 }, SMOOTH }, { 7.0, { 4, -18, -6 } },
   { 7.12, { -10, 10, 2 }, FAST }, { 7.4, { -2, -2, 0 }, SMOOTH }, { 8.3, { -2, -2, 0 } },
-  { 9.2, { 22, 52, 20 }, SMOOTH } }
+  { 8.6, { 4, 14, 8 }, SMOOTH },
+  { 9.3, { 66, 66, 4 }, SMOOTH } }
 
 --- Her body: degrees that she leans, and her height.
 local body = keys { { 1.9, { 0, 1 } }, { 2.25, { -6, 0.95 }, SMOOTH }, { 2.45, { -6, 0.95 } },
@@ -21,22 +22,23 @@ local body = keys { { 1.9, { 0, 1 } }, { 2.25, { -6, 0.95 }, SMOOTH }, { 2.45, {
   { 4.5, { -10, 0.88 }, SMOOTH }, { 4.8, { -11, 0.87 } }, { 4.95, { 14, 1.12 }, FAST },
   { 5.5, { 0, 1 }, SMOOTH }, { 7.0, { 0, 1.03 } }, { 7.12, { 0, 0.86 }, FAST },
   { 7.4, { 0, 1.02 }, SMOOTH }, { 7.7, { 0, 1 }, SMOOTH }, { 8.3, { 0, 1 } },
-  { 9.2, { 3, 0.76 }, SMOOTH } }
+  { 9.3, { 3, 0.66 }, SMOOTH } }
 
 --- Where her paw is; on the ground at { 62, -8 }.
 local paw = keys { { 1.9, { 62, -8 } }, { 2.2, { 108, -104 }, SMOOTH }, { 2.45, { 104, -112 } },
   { 2.58, { 156, -122 }, FAST }, { 2.75, { 148, -100 }, SMOOTH }, { 3.1, { 62, -8 }, SMOOTH },
   { 4.0, { 62, -8 } }, { 4.45, { 112, -170 }, SMOOTH }, { 4.8, { 104, -180 } },
-  { 4.92, { 178, -122 }, FAST }, { 5.15, { 158, -80 }, SMOOTH }, { 5.5, { 62, -8 }, SMOOTH } }
+  { 4.92, { 178, -122 }, FAST }, { 5.15, { 158, -80 }, SMOOTH }, { 5.5, { 62, -8 }, SMOOTH },
+  { 8.3, { 62, -8 } }, { 9.1, { 92, -8 }, SMOOTH } }
 
 --- How far her eyes are open, and how high her ears are.
 local lids = keys { { 0.3, 1 }, { 0.4, 0 }, { 0.5, 1 }, { 1.1, 1 }, { 1.2, 1.25 }, { 2.2, 1.25 },
   { 2.3, 0.7 }, { 2.6, 1.2 }, { 4.4, 1 }, { 4.6, 0.55 }, { 4.95, 1.3 }, { 6.9, 1.2 }, { 7.05, 0 },
   { 7.5, 0 }, { 7.7, 0.6 }, { 8.1, 0.6 }, { 8.4, 0 } }
 local blink = keys { { 10.1, 0 }, { 10.2, 1, FAST } }
-local ears = keys { { 1.0, 1 }, { 1.15, 1.3, OVER }, { 2.0, 1.2 }, { 2.3, 0.8 }, { 2.6, 1.2 },
-  { 4.4, 1 }, { 4.6, 0.65 }, { 5.0, 1.3, OVER }, { 6.9, 1.2 }, { 7.05, 0.5 }, { 7.5, 1, OVER },
-  { 8.3, 1 }, { 9.2, 0.7, SMOOTH }, { 9.95, 0.7 }, { 10.1, 1.2, OVER } }
+local ears = keys { { 1.0, 1 }, { 1.15, 1.14, OVER }, { 2.0, 1.1 }, { 2.3, 0.8 }, { 2.6, 1.12 },
+  { 4.4, 1 }, { 4.6, 0.65 }, { 5.0, 1.14, OVER }, { 6.9, 1.1 }, { 7.05, 0.5 }, { 7.5, 1, OVER },
+  { 8.3, 1 }, { 9.2, 0.7, SMOOTH }, { 9.95, 0.7 }, { 10.1, 1, OVER } }
 
 --- The moon hangs from far above: degrees of its swing, and its radius.
 local swing = keys { { 0, 0 }, { 2.56, 0 }, { 3.2, -9, "outSine" }, { 3.95, 10, SMOOTH },
@@ -84,17 +86,23 @@ local function tail(t)
   return limb(points)
 end
 
+local TOES = stroke { d = "M3 -5 H16 M4 5 H16", width = 2.6, cap = "round" }:rotate(20)
+
 local function cat(t)
   local hx, hy, degrees = table.unpack(head:at(t))
   local lean, high = table.unpack(body:at(t))
   local px, py = table.unpack(paw:at(t))
   high = high + 0.012 * math.sin(2.6 * t) -- she breathes
   local trunk = (BACK - HAUNCH - LEG) | limb { { 26, -116, 34 },
-    { (px + 60) / 2, (py - 92) / 2, 31 }, { px - 12, py - 6, 27 }, { px, py, 30 } }
+    { (px + 60) / 2, (py - 92) / 2, 25 }, { px - 12, py - 6, 21 }, { px, py, 33 } }
+    - TOES:translate(px, py)
   -- Half as wide as it is low, so that she keeps her weight; her head goes with her neck.
-  return tail(t) | (trunk:scale(high ^ -0.5, high)
-    | skull(ears:at(t), lids:at(t), blink:at(t)):rotate(degrees)
-      :translate(22 + hx, -184 * high + hy)):rotate(lean)
+  trunk = trunk:scale(high ^ -0.5, high)
+  local x, y, asleep = 22 + hx, -184 * high + hy, motion.span(t, 8.5, 0.8)
+  -- As she curls up, a line about her head keeps it free of her back.
+  if asleep > 0 then trunk = trunk - ellipse { x, y - 4, 57 * asleep, 55 * asleep } end
+  return tail(t) | (trunk | skull(ears:at(t), lids:at(t), blink:at(t)):rotate(degrees)
+    :translate(x, y)):rotate(lean)
 end
 
 -- ---------------------------------------------------------------- the town
@@ -138,19 +146,30 @@ end
 
 local function stars()
   local chance, list = dice "stars", {}
-  for i = 1, 34 do
+  while #list < 22 do
     local x, y, size = 1280 * chance(), 440 * chance(), 2 + 5 * chance() ^ 3
-    list[i] = star { centre = { x, y }, points = 4, outer = 2.2 * size, inner = 0.5 * size }
+    local away = ((x - 560) ^ 2 + (y + 900) ^ 2) ^ 0.5 - 1230 -- from the moon's way
+    if math.abs(away) > 60 then
+      list[#list + 1] = star { centre = { x, y }, points = 4, outer = 2.2 * size,
+        inner = 0.5 * size }
+    end
   end
   return union(list)
 end
 
 local TOWN, STARS = roofs(), stars()
 
+--- Clouds are drawn with a pen, and seen where the moon is.
+local function cloud(x, y, size)
+  return stroke { d = "M0 0 C26 0 30 -34 64 -32 C84 -70 146 -62 152 -26 C180 -34 200 -14 204 0 "
+    .. "M-46 16 H128", width = 7, cap = "round", taper = { 30, 30 } }:scale(size):translate(x, y)
+end
+local CLOUDS = cloud(980, 168, 1) | cloud(672, 92, 0.62)
+
 --- A bird that comes by day, and sits down on the aerial.
 local way = motion.along "M1330 250 C1180 330 1010 330 940 420 C915 450 895 495 866 508"
 local function bird(t)
-  local u = motion.span(t, 8.5, 1.2, "outSine")
+  local u = motion.span(t, 8.0, 1.3, "outSine")
   local x, y = way:at(u)
   local up = u < 1 and 26 * math.sin(25 * t) or 4
   local wing = path { d = ("M-4 -4 Q%g %g %g %g Q14 2 12 0 Z"):format(4, -up, 24, -1.3 * up) }
@@ -173,15 +192,16 @@ for i, tone in ipairs { "A3", "E4", "A4", "C#5", "E5", "A5" } do
   notes[#notes + 1] = { 7.05 + 0.06 * i, score.bell(tone, 1.6), 0.21 }
 end
 for i = 1, 5 do
-  notes[#notes + 1] = { 8.5 + 0.21 * i + i % 2 * 0.05,
+  notes[#notes + 1] = { 8.05 + 0.21 * i + i % 2 * 0.05,
     score.slide(2400 + 200 * (i % 3), 3000, 0.09), 0.075 }
 end
 
 return film { title = "The cat and the moon", size = { 1280, 720 }, fps = 24, frames = 264,
-  poster = "4s", background = "#000", sound = score.play(11, notes),
+  poster = "6.7s", background = "#000", sound = score.play(11, notes),
   frame = function(f)
     local t = f:twos()
     local moon = circle { 560, 330, radius:at(t) }:rotate(swing:at(t), 560, -900)
-    local picture = moon ~ (TOWN | bird(t) | cat(t):scale(1.14):translate(322, 402) | STARS - moon)
+    local sky = STARS - moon | CLOUDS:translate(90 - 12 * t, 0) & moon
+    local picture = moon ~ (TOWN | bird(t) | cat(t):scale(1.14):translate(322, 402) | sky)
     return picture:paint("#fff")
   end }

@@ -25,14 +25,14 @@ end
 -- The rows: what each wants of the height, and its letters, with what they want of the width.
 -- "ROOM" takes a breath at 9, is pushed back at 10, and takes all at 11.
 local rows = {
-  { height = { at(-1, 1), at(12, 0.42, 1) },
+  { height = { at(-1, 1), at(12, 0.62, 1) },
     { "T", at(-1, 1) }, { "H", at(0.5, 1) }, { "E", at(1, 1) }, { "R", at(1.5, 1) },
-    { "E", at(2, 1) } },
-  { height = { at(3, 1), at(12, 0.42, 1) },
-    { "I", at(3.5, 0.2) }, { "S", at(3, 1) } },
-  { height = { at(4, 1), at(12, 2.2, 1) },
+    { "E", at(1.75, 1) } },
+  { height = { at(3, 1), at(12, 0.62, 1) },
+    { "I", at(3.5, 0.085) }, { "S", at(3, 1) } },
+  { height = { at(4, 1), at(12, 1.9, 1) },
     { "N", at(4, 1), at(9, 0.8), at(10, 1.2), at(11, 0, 0.6, "inOutCubic"), is_no = true },
-    { "O", at(4.5, 1), at(9, 0.8), at(10, 1.3), at(11.2, 0, 0.6, "inOutCubic"), is_no = true },
+    { "O", at(4.2, 1), at(9, 0.8), at(10, 1.3), at(11.2, 0, 0.6, "inOutCubic"), is_no = true },
     { "R", at(6, 0.3), at(11, 1, 1) },
     { "O", at(6.25, 0.3), at(9, 0.65), at(10, 0.2), at(11, 1.3, 1), at(13.5, 2, 0.7),
       at(14.25, 1.1, 0.7) },
@@ -89,9 +89,9 @@ end
 
 --- The sound of each letter that arrives, and of the pushes.
 local function music()
-  local sound = score(8)
+  local sound = score(8.5)
   local function beat(n, voice, volume, pan) sound:add(n * BEAT, voice, volume, pan) end
-  for i, n in ipairs { 0, 0.5, 1, 1.5, 2, 3, 3.5, 4, 4.5 } do
+  for i, n in ipairs { 0, 0.5, 1, 1.5, 1.75, 3, 3.5, 4, 4.2 } do
     beat(n, score.thump(i > 7 and 52 or 78, 0.4), 0.7)
     beat(n, score.click(0.5, 0.05), 0.25, i % 2 * 0.6 - 0.3)
   end
@@ -110,10 +110,7 @@ end
 
 local function frame(f)
   local beat = f.time / BEAT
-  local turned = motion.span(beat, 11.9, 0.4, "inOutCubic")
-  local art = { rect { 0, 0, W, H, fill = PAPER },
-    rect { 0, H * (1 - turned), W, H * turned, fill = YELLOW } }
-  local heights, sum = {}, 0
+  local art, heights, sum = { rect { 0, 0, W, H, fill = PAPER } }, {}, 0
   for i, row in ipairs(rows) do
     heights[i] = share(row.height, beat)
     sum = sum + heights[i]
@@ -121,11 +118,15 @@ local function frame(f)
   local y, room = EDGE, H - 2 * EDGE + GAP
   for i, row in ipairs(rows) do
     local height = room * heights[i] / sum
+    if i == 3 then -- light opens out of the middle of ROOM, up and down, behind all rows
+      local u, middle = motion.span(beat, 11.8, 0.8, "inOutCubic"), y + height / 2
+      table.insert(art, 2, rect { 0, middle * (1 - u), W, H * u, fill = YELLOW })
+    end
     set_row(art, row, beat, y, height - GAP, i == 3 and RED or INK)
     y = y + height
   end
   return cel(art)
 end
 
-return film { title = "Room", size = { W, H }, fps = 24, duration = 8, sound = music(),
+return film { title = "Room", size = { W, H }, fps = 24, duration = 8.5, sound = music(),
   frame = frame }

@@ -47,12 +47,16 @@ local SICKLE = "M0 0 C-30 -110 -110 -170 -214 -130 C-250 -116 -262 -84 -254 -60 
   .. "-90 -44 46 Z"
 
 --- Pieces in the order in which they are laid: shape, paper, the part that moves it, and where it
---- comes to lie on the sun: { right, down, degrees }.
+--- comes to lie on the sun: { right, down, degrees }; or where it grows on the meadow, as a plant.
 local PIECES = {
-  { d(SICKLE):rotate(34):translate(-112, -18), ORANGE, "tail" },
-  { d(SICKLE):scale(0.96):rotate(12):translate(-116, -6), MUSIC, "tail" },
-  { d(SICKLE):scale(0.86):rotate(-12):translate(-118, 8), RED, "tail" },
-  { d(SICKLE):scale(0.7):rotate(-38):translate(-112, 26), DOTS, "tail" },
+  { d(SICKLE):rotate(34):translate(-112, -18), ORANGE, "tail",
+    plant = { -384, 26 } },
+  { d(SICKLE):scale(0.96):rotate(12):translate(-116, -6), MUSIC, "tail",
+    plant = { -304, 78 } },
+  { d(SICKLE):scale(0.86):rotate(-12):translate(-118, 8), RED, "tail",
+    plant = { 498, 68 } },
+  { d(SICKLE):scale(0.7):rotate(-38):translate(-112, 26), DOTS, "tail",
+    plant = { 560, 128 } },
   { d "M-26 78 L-34 168 L-70 184 L-66 194 L-30 184 L-2 196 L2 186 L-16 170 L-2 80 Z", YELLOW },
   { d "M44 78 L44 168 L10 184 L14 194 L48 184 L78 194 L80 184 L62 168 L68 76 Z", YELLOW },
   { d("M-176 -52 C-150 50 -70 116 24 108 C122 98 168 14 152 -62 C142 -112 118 -150 112 -196 L34 "
@@ -62,25 +66,24 @@ local PIECES = {
   { d("M30 -204 C8 -140 22 -84 44 -48 L64 -84 L84 -34 L104 -82 L126 -40 L142 -90 C140 -140 130 "
     .. "-176 116 -210 Z"), MARBLE, "neck" },
   { d("M40 -256 C28 -284 40 -306 54 -292 C58 -322 84 -322 84 -294 C98 -316 122 -304 112 -280 C126 "
-    .. "-284 130 -266 116 -252 Z"), RED, "head", { 0, -186, -4 } },
+    .. "-284 130 -266 116 -252 Z"), RED, "head", { 26, -186, 4 } },
   { circle { 76, -218, 48 }, KRAFT, "head" },
-  { d "M116 -206 L170 -196 L120 -188 Z", fibres("#8a3f1a", "#b8632c"), "jaw", { 22, 44, 0 } },
-  { d "M112 -238 L184 -212 L114 -202 Z", ORANGE, "head", { 26, 0, 0 } },
+  { d "M116 -206 L170 -196 L120 -188 Z", fibres("#8a3f1a", "#b8632c"), "jaw", { 186, 44, 6 } },
+  { d "M112 -238 L184 -212 L114 -202 Z", ORANGE, "head", { 196, 0, 0 } },
   { d "M104 -194 C86 -160 98 -134 114 -138 C130 -142 130 -170 118 -194 Z", RED, "head",
-    { 6, 104, 0 } },
-  { circle { 88, -230, 14 }, WHITE, "head", { -34, -50, 0 } },
-  { circle { 91, -229, 6.5 }, BLACK, "head", { -31, -47, 0 } },
+    { 122, 104, 0 } },
+  { circle { 88, -230, 14 }, WHITE, "head", { 76, -50, 0 } },
+  { circle { 91, -229, 6.5 }, BLACK, "head", { 80, -47, 0 } },
 }
 local chance = random "scraps"
 for i, piece in ipairs(PIECES) do
   local x, y, w, h = piece[1]:bounds()
   piece.middle = { x + w / 2, y + h / 2 }
   piece.drawn = torn(piece[1], piece[2], i)
-  piece.from = { -520 + 1100 * chance(i), 150 + 60 * chance(-i), 360 * chance(i + 0.5) - 180 }
+  piece.from = { -400 + 900 * chance(i), 150 + 60 * chance(-i), 360 * chance(i + 0.5) - 180 }
   piece.start = 0.35 + 0.11 * i + 0.1 * chance(i + 0.25)
-  piece.burst = { piece[3] == "body" and -240 or 200 - 900 * chance(i + 0.1),
+  piece.burst = { 200 - 900 * chance(i + 0.1),
     -600 - 500 * chance(i + 0.2), 500 * chance(i + 0.3) - 250 }
-  piece.ground = 176 - 0.3 * math.min(w, h) - piece.middle[2]
 end
 
 -- ---------------------------------------------------------------- the acting, in seconds
@@ -148,9 +151,14 @@ local function scrap(piece, i, t)
       (1 - u) * 300 * up + u * goal[3] + jitter)
   end
   local x, y, spin = table.unpack(piece.burst)
-  local down = math.min(last[2] + y * age + 1500 * age * age, piece.ground)
-  local flight = math.min(age, 0.75)
-  return laid(piece, art, last[1] + x * flight, down, spin * flight)
+  if not piece.plant then
+    return laid(piece, art, last[1] + x * age, last[2] + y * age + 1500 * age * age, spin * age)
+  end
+  local right, degrees = table.unpack(piece.plant)
+  local u = motion.span(age, 0, 0.9, "inOutSine")
+  return laid(piece, art, (1 - u) * last[1] + u * (right - piece.middle[1]),
+    (1 - u) * last[2] + u * (186 - piece.middle[2]) - 330 * math.sin(math.pi * u),
+    u * (degrees + 4 * math.sin(2.4 * t + i)) + jitter)
 end
 
 -- ---------------------------------------------------------------- letters that were cut out
@@ -174,7 +182,7 @@ local function letters(text_, from, x, y, step)
 end
 local FIRST = letters("COCK-A", 3.1, 690, 190, 82)
 local SECOND = letters("DOODLE", 5.84, 700, 150, 84)
-local THIRD = letters("DOO!", 6.2, 760, 270, 92)
+local THIRD = letters("DOO!", 6.0, 760, 270, 92)
 
 local function called(list, t, until_)
   local seen = {}
@@ -199,9 +207,12 @@ local function strip(y, waves, seed)
 end
 local NIGHT = rect { -20, -20, 1320, 760, fill = fibres("#1d2b4e", "#33507f", 240) }
 local STARS = {}
-for i = 1, 13 do
-  STARS[i] = torn(star { centre = { 1240 * chance(i + 0.7), 330 * chance(i + 0.8) }, points = 5,
-    outer = 15, inner = 6, rotate = 70 * chance(i) }, WHITE, i)
+for i = 1, 60 do -- those that do not shine through his feathers or his words
+  local x, y = 1240 * chance(i + 0.7), 20 + 400 * chance(i + 0.8)
+  if y < 70 and x < 620 or x > 640 and y > 330 then
+    STARS[#STARS + 1] = torn(star { centre = { x, y }, points = 5, outer = 15, inner = 6,
+      rotate = 70 * chance(i) }, WHITE, i)
+  end
 end
 STARS = union(STARS)
 local MORNING = torn(strip(0, 60, "morning"):translate(0, -70),
@@ -210,7 +221,7 @@ local rays = {}
 for i = 1, 14 do
   rays[i] = path { d = "M-20 -176 L0 -250 L20 -176 Z" }:rotate(360 / 14 * i)
 end
-local SUN = torn(union(rays), ORANGE, 7) | torn(circle { 0, 0, 172 }, YELLOW, 8)
+local SUN = torn(union(rays), YELLOW, 7) | torn(circle { 0, 0, 172 }, YELLOW, 8)
 local HILLS = torn(strip(520, 90, "far"), fibres("#2f6b58", "#4d8f6c", 80), 11)
   | torn(strip(596, 36, "near"), fibres("#1f4a3a", "#37705a", 60), 12)
 local FLOOR = torn(strip(664, 30, "floor"), GRAPH, 13)
@@ -226,6 +237,7 @@ for _, piece in ipairs(PIECES) do
   notes[#notes + 1] = { piece.start, score.wind(0.8, 0.14, 0.05), 0.15 }
   notes[#notes + 1] = { piece.start + 0.36, score.thump(260), 0.105 }
   if piece[4] then notes[#notes + 1] = { BURST + 1.35, score.thump(180), 0.09 } end
+  if piece.plant then notes[#notes + 1] = { BURST + 0.88, score.thump(240), 0.09 } end
 end
 for k, list in ipairs { FIRST, SECOND, THIRD } do
   for i, one in ipairs(list) do
@@ -249,6 +261,6 @@ return film { title = "Cut-paper morning", size = { 1280, 720 }, fps = 24, frame
     return { NIGHT, STARS, MORNING:translate(0, 620 * (1 - up)),
       SUN:rotate(6 * t):translate(640, 800 - 530 * up), HILLS,
       union(list):translate(520, 420), FLOOR:translate(0, 30),
-      called(FIRST, t, 4.2), called(SECOND, t, BURST + 0.4), called(THIRD, t, BURST + 0.5),
+      called(FIRST, t, 3.8), called(SECOND, t, BURST + 0.4), called(THIRD, t, BURST + 0.5),
       grain = { amount = set.grain, size = 1.8, frame = 0 } }
   end }

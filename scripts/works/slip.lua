@@ -10,7 +10,7 @@ local COUNT, RADIUS = 12, 40
 
 -- ---------------------------------------------------------------- the title
 
-local TITLE_Y = 520
+local TITLE_Y = 490
 local title = glyphs { "Slıp", 640, TITLE_Y, font = FONT, size = 620, align = "centre" }
 
 --- The box of the stem of a letter of the title: left, top, width, bottom.
@@ -27,8 +27,8 @@ local function place(i) return (i - 0.5) * W / COUNT end
 
 --- A bar as left, top, width, bottom: as a key, as a roof, in the prison, and in the title.
 local function as_key(i) return { place(i) - 45, 490, 90, 760 } end
-local roofs = { 590, 520, 560, 450, 500, 390, 440, 320, 380, 250, 330, 210 }
-local function as_roof(i) return { place(i) - 54, roofs[i], 108, 760 } end
+local roofs = { 640, 570, 610, 520, 560, 470, 510, 420, 460, 370, 410, 330 }
+local function as_roof(i) return { place(i) - 43, roofs[i], 86, 760 } end
 local function in_prison(i) return { place(i) - 24, -40, 48, 760 } end
 local function in_title(i)
   if i == 6 then return stem_l elseif i == 7 then return stem_i end
@@ -41,7 +41,7 @@ for i = 1, COUNT do
   local function at(beat) return beat * BEAT + late * 0.7 end
   tracks[i] = keys {
     { at(-1.6), { place(i) - 45, 800, 90, 860 } }, { at(-0.4), as_key(i), "outBack" },
-    { at(7.4), as_key(i) }, { at(8.6), as_roof(i), "inOutBack" },
+    { at(6.9), as_key(i) }, { at(8.1), as_roof(i), "inOutBack" },
     { at(15), as_roof(i) }, { at(16), in_prison(i), "inOutCubic" },
     { at(22), in_prison(i) }, { at(23.4), in_title(i), "inOutCubic" } }
 end
@@ -52,8 +52,8 @@ end
 local D, F, G, A, C = 73.4, 87.3, 98, 110, 130.8
 local landings = {
   { 0, 1, D }, { 1, 3, F }, { 2, 4, G }, { 3, 6, A }, { 4, 8, C }, { 5, 9, A }, { 6, 11, G },
-  { 7, { 1400, 300 }, F, is_cut = true },
-  { 8.4, { -60, 500 } }, { 9, 1, D }, { 10, 3, F }, { 11, 5, A }, { 12, 7, G }, { 13, 9, C },
+  { 6.66, { 1400, 300 }, F, is_cut = true },
+  { 7.9, { -60, 420 } }, { 9, 1, D }, { 10, 3, F }, { 11, 5, A }, { 12, 7, G }, { 13, 9, C },
   { 14, 11, D * 2 }, { 15, { 1400, -60 }, A, is_cut = true },
   { 15.6, { 560, -160 } }, { 16.4, { 560, 600 }, D }, { 17.2, { 720, 600 }, F },
   { 18, { 560, 600 }, G }, { 19, { 640, 430 }, A }, { 21, { 640, 430 } },
@@ -75,14 +75,19 @@ local function bar_at(i, time)
   return box[1], box[2] + sunk, box[3], box[4]
 end
 
+--- How high the gables are at a beat: only the roofs have them.
+local function gable_at(beat)
+  return 38 * (motion.span(beat, 7.3, 0.8, "outBack") - motion.span(beat, 15, 0.5))
+end
+
 --- Where a landing is.
 local function point_of(landing)
   if type(landing[2]) == "table" then return landing[2][1], landing[2][2] end
   local x, y, w = bar_at(landing[2], landing[1] * BEAT - 0.001)
-  return x + w / 2, y - RADIUS
+  return x + w / 2, y - RADIUS - gable_at(landing[1])
 end
 
---- The dot at a time: x, y, and how much it is stretched along its way, with its direction.
+--- The dot at a time: x, y, and how much it is stretched along its way.
 local function dot_at(time)
   local beat, i = beat_of(time), 1
   while landings[i + 1] and beat >= landings[i + 1][1] do i = i + 1 end
@@ -93,7 +98,7 @@ local function dot_at(time)
   local u = (beat - from[1]) / (to[1] - from[1])
   local is_held = from[1] == 19
   local is_fall = from[1] == 15.6 or from[1] == 23.6
-  local hop = (is_held or is_fall) and 0 or from[1] == 18 and 60 or from[1] > 8 and 160 or 230
+  local hop = (is_held or is_fall) and 0 or from[1] == 18 and 60 or from[1] > 7 and 120 or 230
   local y = y0 + (y1 - y0) * (is_fall and u * u or u) - hop * 4 * u * (1 - u)
   return x0 + (x1 - x0) * u, y, is_held and 0 or 0.22 * math.abs(2 * u - 1) ^ 2
 end
@@ -113,7 +118,13 @@ local function bar(i, time, fill)
   local x, y, w, low = bar_at(i, time)
   local share = ({ 1, 0.5, 0.2 })[math.abs(i - 6.5) // 1 + 1] or 0
   local bow = (i > 6 and 1 or -1) * share * bow_at(time)
-  if math.abs(bow) < 0.5 then return rect { x, y, w, low - y, fill = fill } end
+  if math.abs(bow) < 0.5 then
+    local box, high = rect { x, y, w, low - y, fill = fill }, gable_at(beat_of(time))
+    if high <= 0 then return box end
+    local window = rect { x + w / 2 - 9, y + 14, 18, 0.7 * high }
+    return box - window
+      | triangle { { x - 8, y }, { x + w / 2, y - high }, { x + w + 8, y }, fill = fill }
+  end
   local d = "M%g -40 C%g 200 %g 230 %g 430 C%g 630 %g 660 %g 900 "
     .. "H%g C%g 660 %g 630 %g 430 C%g 230 %g 200 %g -40 Z"
   local bent, right = x + bow, x + w
@@ -124,21 +135,22 @@ end
 
 --- The colours of a part of the film: of the ground, the bars and the dot.
 local function colours_at(beat)
-  if beat < 8 then return BLUE, BONE, RED end
+  if beat < 7.5 then return BLUE, BONE, RED end
   if beat < 15.5 then return INK, BLUE, RED end
   if beat < 22.6 then return RED, INK, BONE end
   return BONE, INK, RED
 end
 
---- Two lines of a credit: the task, small, and the name; they slide in and out.
-local function credit(task, name, from, to, time, fill)
+--- Two lines of a credit: the task, small, and the name; they slide in and out at their side.
+local function credit(task, name, side, from, to, time)
   local beat = beat_of(time)
   local comes = motion.span(beat, from, 1, "outCubic")
   local goes = motion.span(beat, to, 0.7, "inCubic")
   if comes == 0 or goes == 1 then return nil end
-  local x = 64 - 500 * (1 - comes) - 900 * goes
-  return union { text { task, x, 106, font = FONT, size = 40, fill = fill },
-    text { name, x, 196, font = FONT, size = 96, fill = fill } }
+  local out = 500 * (1 - comes) + 900 * goes
+  local x = side == "left" and 64 - out or W - 64 + out
+  return union { text { task, x, 98, font = FONT, size = 40, align = side, fill = BONE },
+    text { name, x, 184, font = FONT, size = 96, align = side, fill = BONE } }
 end
 
 --- The letters S and p, which come up beside the two bars that stay.
@@ -159,15 +171,17 @@ local function frame(f)
   local x, y, stretch = dot_at(time)
   local size = 1 + 0.55 * motion.span(beat, 19, 2, "inOutCubic") - 0.25 * motion.span(beat, 22, 1)
   local squashed = math.exp(-((beat - 24.45) / 0.12) ^ 2) * 0.3
-  local dot = ellipse { 0, 0, RADIUS * size * (1 - stretch / 2 + squashed),
-    RADIUS * size * (1 + stretch - squashed), fill = red }:translate(x, y)
+  local next_x, next_y = dot_at(time + 0.01)
+  local way = math.deg(math.atan(next_y - y, next_x - x))
+  local dot = ellipse { 0, 0, RADIUS * size * (1 + stretch), RADIUS * size * (1 - stretch / 2),
+    fill = red }:rotate(way):scale(1 + squashed, 1 - squashed):translate(x, y)
   local is_behind = beat > 15.5 and beat < 19
-  local words = credit("a film by", "Nora Lindqvist", -0.5, 6.8, time, BONE)
-    or credit("with", "Ida Holm · Jo Park", 8.6, 14.2, time, BONE)
+  local words = credit("a film by", "Nora Lindqvist", "left", -0.5, 6.8, time)
+    or credit("with", "Ida Holm · Jo Park", "right", 8.1, 14.2, time)
   return cel { rect { 0, 0, W, H, fill = ground }, words, is_behind and dot, union(bars),
     beat > 23 and letters(time, ink), not is_behind and dot,
-    beat > 25.5 and text { "in cinemas never", 640, 690, font = FONT, size = 44,
-      align = "centre", tracking = 30, fill = ink }:fade(motion.span(beat, 25.5, 1)) }
+    beat > 25.5 and text { "in cinemas never", 640, 664, font = FONT, size = 44,
+      align = "centre", tracking = 30, fill = "#d8370c" }:fade(motion.span(beat, 25.5, 1)) }
 end
 
 -- ---------------------------------------------------------------- the music
@@ -192,7 +206,7 @@ local function music()
   end
   chord(0, 0.5, { 349.2, 440, 523.3, 659.3 }, 0.07)
   chord(3.66, 0.4, { 392, 466.2, 587.3, 698.5 }, 0.07)
-  chord(8.66, 0.5, { 349.2, 440, 523.3, 659.3 }, 0.07)
+  chord(7.66, 0.5, { 349.2, 440, 523.3, 659.3 }, 0.07)
   chord(12.66, 0.4, { 392, 493.9, 587.3, 698.5 }, 0.07)
   sound:add(19 * BEAT, score.slide(160, 420, 2 * BEAT), 0.16)
   sound:add(21.2 * BEAT, score.slide(900, 180, 0.3), 0.25)

@@ -1,5 +1,5 @@
--- A line of one's own: a line curls up, wakes as a bird, and takes itself away from the paper. Line
--- and bird are one stroke, drawn again for each second frame.
+-- A line of one's own: a line curls up, wakes as a bird, and takes itself away from the paper; what
+-- it leaves draws it again. Line and bird are one stroke, drawn again for each second frame.
 local score = require "sound.score"
 local mood = require("stage.moods").paper
 
@@ -7,8 +7,8 @@ local set = parameters { grain = { 0.025, min = 0, max = 0.3 } }
 
 local SMOOTH, OVER = "inOutSine", "outBack"
 local BEFORE = "M-60 522 C100 514 260 530 400 520 S500 520 560 520"
-local WAY = BEFORE .. " C720 520 790 430 830 330 C880 200 1030 110 1080 210 C1130 320 920 390 870 "
-  .. "270 C830 160 960 70 1180 120 S1500 -40 2600 -300"
+local WAY = BEFORE .. " C720 520 790 430 830 330 C880 220 1030 190 1080 290 C1130 400 920 470 870 "
+  .. "350 C830 240 960 150 1180 190 S1500 40 2600 -300"
 local way = motion.along(WAY)
 local LENGTH = motion.along(BEFORE).length
 
@@ -46,15 +46,15 @@ local eye = keys { { 3.2, { 118, -84, 0 } }, { 3.3, { 118, -84, 1 } },
 local blush = keys { { 4.2, 0 }, { 4.7, 1, SMOOTH } }
 
 --- How far along her way the end of the line is, in units.
-local head = keys { { 0, 0 }, { 1.5, LENGTH, SMOOTH }, { 5.3, LENGTH },
+local head = keys { { 5.3, LENGTH },
   { 5.7, LENGTH + 190, "inQuad" }, { 7.6, LENGTH + 1500 }, { 8.7, LENGTH + 2500 } }
 
 -- ---------------------------------------------------------------- pencil, paint and paper
 
 --- Graphite: noise whose pale grains are the paper's; another for each drawing.
 local function graphite(number)
-  return noise { size = 2.6, seed = number % 5, fade = false,
-    colours = { mood.ink, mood.ink .. "f0", mood.ink .. "28" } }
+  return noise { size = 1.3, seed = number % 5, fade = false,
+    colours = { mood.ink, mood.ink .. "f0", mood.ink .. "70" } }
 end
 
 local function line(fields, f)
@@ -64,8 +64,8 @@ end
 
 local PAPER = union {
   rect { 0, 0, 1280, 720, fill = linear(mood.sky) },
-  rect { 0, 0, 1280, 720, fill = noise { kind = "fractal", size = 260, octaves = 7, gain = 0.62,
-    colours = { mood.near .. "2a", mood.near .. "00", mood.light .. "60" } } } }
+  rect { 0, 0, 1280, 720, fill = noise { kind = "fractal", size = 520, octaves = 7, gain = 0.62,
+    colours = { mood.near .. "12", mood.near .. "00", mood.light .. "30" } } } }
 
 local WASH = noise { kind = "fractal", size = 70, octaves = 5,
   colours = { "#d98f5c", mood.accent, "#e9b48a" } }
@@ -75,10 +75,9 @@ local WASH = noise { kind = "fractal", size = 70, octaves = 5,
 --- A wing from her shoulder, `up` from -1 to 1.
 local function wing(x, y, up, size)
   local h = 150 * up * size
-  return { { x + 50, y }, { x + 30, y - 0.5 * h }, { x - 30 * size, y - h },
-    { x - 80 * size, y - h }, { x - 80 * size, y - h }, { x - 40 * size, y - 0.55 * h },
-    { x - 50 * size, y - 0.4 * h },
-    { x - 20, y - 0.15 * h }, { x - 10, y + 6 } }
+  return { { x + 50, y }, { x + 62, y - 0.5 * h }, { x - 10 * size, y - h - 8 },
+    { x - 88 * size, y - h }, { x - 88 * size, y - h }, { x - 72 * size, y - 0.55 * h + 18 },
+    { x - 70 * size, y - 0.4 * h + 26 }, { x - 40, y - 0.1 * h + 20 }, { x - 10, y + 10 } }
 end
 
 local FOLDED = { { 50, -138 }, { 96, -120 }, { 100, -60 }, { 20, -44 }, { -50, -44 } }
@@ -108,23 +107,39 @@ local function bird(f, t)
   return union(parts):scale(high ^ -0.6, high)
 end
 
---- A feather that is left, and swings to the ground.
-local FALL = 7.4
+--- The line along her way, between two places in units. The pencil presses, and lets go.
+local function thread(from, to, f)
+  local points, count = {}, math.ceil((to - from) / 32)
+  for i = 0, count do
+    local s = from + (to - from) * i / count
+    local x, y = way:at(s / way.length)
+    points[i + 1] = { x, y, 5.8 + 1.8 * math.sin(s / 70) }
+  end
+  return line({ points = points }, f)
+end
+
+--- A feather that she loses, and that swings to the ground, until its quill is where the line was.
+local FALL, LANDS, ERASED = 7.0, 9.3, 10.55
+local from_x, from_y = way:at(head:at(FALL) / way.length)
 local function feather(f, t)
-  local u = motion.span(t, FALL, 2.9)
-  local sway = math.cos(7.5 * u) * (1 - u) ^ 0.6
+  local u = motion.span(t, FALL, LANDS - FALL)
+  local sway = math.cos(7.5 * u + 1.6) * (1 - u) ^ 0.6 * math.min(1, 4 * u)
   local quill = union {
     path { d = "M-34 0 Q-10 -20 40 -4 Q0 14 -34 0 Z", fill = WASH }:fade(0.85):translate(4, 3),
     line({ d = "M-52 2 Q0 -6 40 -4", width = 2.6 }, f),
     line({ d = "M-34 0 Q-10 -20 40 -4 Q0 14 -34 0", width = 3 }, f) }
-  local x, y = 800 + 150 * sway, -40 + 552 * u - 34 * math.abs(sway) ^ 2 * (u < 1 and 1 or 0)
-  return quill:rotate(-34 * math.sin(7.5 * u) * (1 - u)):scale(1.5):translate(x, y)
+  local writes = motion.span(t, LANDS + 0.1, 0.1) - motion.span(t, 10.4, 0.1)
+  return quill:rotate(-34 * math.sin(7.5 * u) * (1 - u) + writes * 3 * math.sin(40 * t), -52, 2)
+    :scale(1.5):translate(638 + (from_x - 638) * (1 - u) + 170 * sway,
+      from_y + (517 - from_y) * u - 34 * sway ^ 2)
+    :fade(1 - motion.span(t, ERASED, 0.35))
 end
 
 -- ---------------------------------------------------------------- the sound
 
---- A pencil on paper; she wakes, shakes herself, and goes up in thirds. The feather comes down.
-local notes = { { 0, score.wind(0.65, 1.5, 0.5), 0.105 },
+--- She wakes, shakes herself, and goes up in thirds. The feather comes down: a pencil on paper.
+local START = 1 -- in seconds of the acting: the film begins as it ends, with the line
+local notes = { { LANDS + 0.1, score.wind(0.65, 1.2, 0.5), 0.105 },
   { 1.55, score.slide(220, 330, 0.6), 0.09 }, { 3.3, score.bell("G5", 1.6), 0.3 },
   { 3.55, score.bell("C5", 1.6), 0.3 },
   { 5.0, score.bell("G3", 1.6), 0.3 }, { 5.3, score.wind(0.4, 0.7, 0.05), 0.15 } }
@@ -133,22 +148,24 @@ for i, tone in ipairs { "C4", "E4", "G4", "C5", "E5", "G5", "E5", "C5", "E5", "G
   notes[#notes + 1] = { 5.2 + 0.17 * i, score.bell(tone, 1.6), 0.18 }
 end
 for i, tone in ipairs { "E5", "D5", "C5", "A4", "G4", "E4" } do
-  notes[#notes + 1] = { 7.3 + 0.42 * i, score.bell(tone, 1.6), 0.15 }
+  notes[#notes + 1] = { FALL + 0.36 * i, score.bell(tone, 1.6), 0.15 }
 end
-notes[#notes + 1] = { 10.3, score.bell("C4", 1.6), 0.21 }
+notes[#notes + 1] = { LANDS, score.bell("C4", 1.6), 0.21 }
+for _, note in ipairs(notes) do note[1] = note[1] - START end
 
-return film { title = "A line of one's own", size = { 1280, 720 }, fps = 24, frames = 264,
-  poster = "6s", sound = score.play(11, notes),
+return film { title = "A line of one's own", size = { 1280, 720 }, fps = 24, frames = 240,
+  poster = "4.9s", sound = score.play(10, notes),
   grain = { amount = set.grain, size = 2, frame = 0 },
   frame = function(f)
-    local t = f:twos()
+    local t = START + f:twos()
     local s = head:at(t)
     local x, y, degrees = way:at(s / way.length)
-    local from = math.max(0, s - LENGTH) / way.length
     local shaken = motion.span(t, 4.25, 0.1) - motion.span(t, 4.6, 0.15)
-    local thread = line({ d = WAY, from = from, to = s / way.length, width = 6.5 }, f)
     local flies = motion.span(t, 5.3, 0.5)
-    local drawing = union { thread, bird(f, t):rotate(degrees * flies):translate(x, y) }
+    local drawn = motion.span(t, LANDS + 0.1, 1.1, SMOOTH)
+    local drawing = union { s < way.length and thread(s - LENGTH, s, f),
+      drawn > 0 and thread(LENGTH * (1 - drawn), LENGTH, f),
+      t < 9 and bird(f, t):rotate(degrees * flies):translate(x, y) }
       :boil { amount = 1.5 + 4 * shaken, grain = 70, frame = f.index, seed = "line" }
     return { PAPER, drawing, t > FALL and feather(f, t):boil { amount = 1, frame = f.index } }
   end }
