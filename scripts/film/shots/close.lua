@@ -78,7 +78,7 @@ local function flight(from)
     from[1], from[2] - 130, LAMP[1], LAMP[2] + 30))
 end
 
-local life = keys { { 13.5, 0.3 }, { 14.4, 0.3, "inOutSine" }, { 15.05, 0.1, "inOutSine" },
+local life = keys { { 13.5, 0.3 }, { 14.72, 0.4, "inOutSine" }, { 15.05, 0.1, "inOutSine" },
   { 15.3, 0.36, "outQuad" }, { 15.5, 0.4, "inOutSine" }, { 16.0, 0.62, "inOutSine" },
   { at.rises, 0.8, "inOutSine" },
   { at.rises + 0.4, 1, "outQuad" }, { at.enters, 1 }, { at.enters + 0.2, 0.5, "inOutSine" },
