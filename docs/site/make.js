@@ -21,6 +21,8 @@ const LANGUAGES = { lua: "lua", sh: "bash", c: "c", h: "c", json: "json", python
   py: "python", html: "html", js: "javascript", meson: "meson" };
 const AS_IS = ["llms.txt", "docs/pictures/little-one.mp4"]; // what links lead to is no page
 
+// What shows more of a moving picture than its first frame does, to those who want no motion.
+const STILLS = { "docs/pictures/moving.webp": "docs/pictures/little-one.webp" };
 const PLAYER = "celspan-film.js"; // in out/docs
 
 const [folder, web] = process.argv.slice(2);
@@ -133,8 +135,10 @@ function showPicture(page, token, about) {
       + `src="${way(page.address, PLAYER)}"></script>`;
   }
   if (!file.endsWith(".webp") || !fs.readFileSync(file).includes("ANMF")) return shown;
-  const still = `still/${placeOf(file)}`;
-  stills.set(still, file);
+  const better = STILLS[file];
+  const still = better ? placeOf(better) : `still/${placeOf(file)}`;
+  if (better) files.add(better);
+  else stills.set(still, file);
   return `<picture><source media="(prefers-reduced-motion: reduce)" srcset="${
     way(page.address, still)}">${shown}</picture>`;
 }
