@@ -68,7 +68,7 @@ local list = {
   { name = "beta", page = "docs/guide-picture.md" },
   { name = "blending", page = "docs/guide.md" },
   { name = "walking", script = "scripts/walking.lua", frame = 10, size = "640x396" },
-  { name = "fox", script = "scripts/fox.lua", frame = 14, size = "480x270" },
+  { name = "fox", script = "scripts/fox.lua", frame = 36, size = "960x540" },
   { name = "turn", script = "scripts/turn.lua", grid = "4x2", size = "880x293" },
   { name = "sea", script = "scripts/sea.lua", frame = 60, size = "560x315" },
   { name = "waving", script = "scripts/waving.lua", frame = 14, size = "640x400" },

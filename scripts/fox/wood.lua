@@ -29,7 +29,19 @@ local light = rect { 0, 0, 960, 540, fill = linear { from = { 0, 0 },
 local planes = { { plane("far", 17, 15, "#d9b069", 490), 0.15 },
                  { plane("middle", 11, 22, "#b88649", 490), 0.35 },
                  { plane("near", 6, 36, "#8a5a36", 490), 0.65 } }
-local front = plane("front", 2, 62, "#3a2318", 600)
+
+--- Bushes far away, which hide where the ground ends.
+local function bushes(seed, y, tint)
+  local random, row = celspan.random(seed), {}
+  for i = 1, 40 do
+    row[i] = ellipse { LONG * (i + random("x" .. i)) / 40, y, 24 + 40 * random("w" .. i),
+      10 + 34 * random("h" .. i), fill = tint }
+  end
+  return union { union(row), union(row):translate(LONG, 0) }
+end
+table.insert(planes, 2, { bushes("thicket", 470, "#d6a455"), 0.24 })
+table.insert(planes, 4, { bushes("hedge", 478, "#b67f38"), 0.48 })
+local front = plane("front", 1, 62, "#3a2318", 600)
 local ground = path { d = "M0 470 Q240 448 480 466 T960 462 V540 H0 Z",
   fill = linear { from = { 0, 455 }, to = { 0, 540 }, { 0, "#c9853a" },
     { 1, "#7d4520" } } }
@@ -70,5 +82,6 @@ return function(time, way, fox)
   cels[#cels + 1] = cel { fox:translate(-way, 0) }
   cels[#cels + 1] = cel { leaves(time, way) }
   cels[#cels + 1] = cel { front:translate(-1.6 * way % LONG - LONG, 0), defocus = 14 }
+  cels.camera = { centre = { 476, 304 }, width = 836 }
   return rostrum(cels)
 end

@@ -4,6 +4,7 @@
 --
 -- Each layer is drawn with celspan and cropped to its contents; then all are put into an archive.
 package.path = "./?.lua;" .. package.path
+setmetatable(_G, { __index = require("celspan").names {} })
 local draw = require "scripts.paintings.draw"
 local paintings = require "tests.support.paintings"
 

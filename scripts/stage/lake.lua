@@ -1,24 +1,58 @@
-local sky = rect {
-  0, -20, 480, 170,
-  fill = linear { from = { 0, 0 }, to = { 0, 145 }, { 0, "#8fc7e8" }, { 1, "#fdf1d3" } } }
-local house = union {
-  rect { 0, -46, 60, 46, fill = "#d1574b" },
-  path { d = "M-7 -44 L30 -78 L67 -44 Z", fill = "#5b3a3a" },
-  rect { 12, -34, 13, 14, fill = "#fff4cf" },
-  rect { 36, -34, 13, 34, fill = "#7a3d36" } }
-local tree = rect { -3, -26, 6, 26, fill = "#6b4a34" }
-  | ellipse { 0, -46, 19, 30, fill = "#5f9a5a" }
-local shore = union {
-  sky,
-  circle { 380, 40, 22, fill = "#fffbe8" },
-  path { d = "M-20 150 L60 62 L120 110 L190 40 L300 150 Z", fill = "#8fa3b8" },
-  path { d = "M160 72 L190 40 L216 67 L200 62 L188 74 L176 64 Z", fill = "#fff" },
-  path {
-    d = "M-20 150 C80 112 180 134 260 128 S420 110 500 132 V150 Z",
-    fill = "#86b46b" },
-  house:translate(300, 136),
-  tree:translate(270, 138),
-  tree:scale(0.8):translate(392, 136),
-  tree:scale(1.2):translate(90, 140) }
+--- The shore of a lake in the fog: firs, a jetty with a lantern, a heron. The water begins at 150.
+local mood = require("stage.moods").fog
+local mist, ink = "#dcdfd6", mood.ink
 
-return shore
+--- A hill with firs on it, from the left edge to the right one.
+local function wood(seed, y, height, tint)
+  local random, points = celspan.random(seed), { { -20, 150 }, { -20, y } }
+  for x = -14, 488, 12 do
+    local foot = y - 9 * math.sin(x / 70 + #seed)
+    local tall = height * (0.35 + 0.65 * random("tall" .. x) * (0.6 + 0.4 * math.sin(x / 40)))
+    for _, at in ipairs { { -5, 0 }, { -2.4, 0.42 }, { -3.6, 0.4 }, { -1.2, 0.72 }, { 0, 1 },
+      { 1.2, 0.72 }, { 3.6, 0.4 }, { 2.4, 0.42 }, { 5, 0 } } do
+      points[#points + 1] = { x + 1.3 * at[1], foot - tall * at[2] }
+    end
+  end
+  points[#points + 1] = { 500, 150 }
+  points.fill = linear { from = { 0, y - height }, to = { 0, 150 }, { 0, tint }, { 1, mist } }
+  return polygon(points)
+end
+
+local function line(d, width, tint, round)
+  return stroke { d = d, width = width, cap = "round", join = "round", fill = tint or ink,
+    taper = round }
+end
+
+local heron = union {
+  line("M-3 0V-30M5 0L4 -16L7 -32", 1.7),
+  path { d = "M-31 -28C-20 -36 -8 -54 14 -52C20 -50 20 -42 14 -36C4 -28 -14 -28 -31 -28Z",
+    fill = mood.near },
+  path { d = "M-31 -27C-22 -33 -12 -42 2 -43C2 -34 -8 -28 -31 -27Z", fill = ink },
+  line("M13 -46C24 -54 6 -64 10 -76C12 -83 18 -85 22 -84", 4.6, mood.ground),
+  line("M12 -44C16 -40 14 -34 12 -32", 2.4, mood.light),
+  path { d = "M17 -87Q24 -89 27 -84L44 -81L26 -80Q19 -79 17 -87Z", fill = mood.ground },
+  path { d = "M27 -84L44 -81L26 -80.5Z", fill = "#d99a3c" },
+  line("M24 -86Q14 -89 4 -80", 1.8), circle { 23, -84.4, 1.2, fill = mood.light } }
+
+local jetty = union {
+  rect { 262, 130, 240, 6, fill = ink }, rect { 262, 136, 240, 3, fill = mood.ground },
+  line("M274 124V156M332 126V156M398 126V156M462 126V156", 5.5),
+  line("M290 131V66Q290 58 298 58H309M290 74L299 59", 3.4), line("M309 58V66", 1.6) }
+local glass = path { d = "M302 72H316L314 92H304Z", fill = "#ffd27a" }
+local lantern = glass:glow { radius = 22, colour = "#ffb347", gain = 1.5 }
+  | path { d = "M299 73L309 63L319 73ZM302 92H316V96H302Z", fill = mood.accent }
+
+local reeds = union {}
+for i = 1, 26 do
+  local random = celspan.random("reed" .. i)
+  local x, tall, lean = 66 * random "x" ^ 1.5 - 6, 24 + 46 * random "y", 14 * (random "lean" - 0.3)
+  reeds = reeds | line(("M%g 152Q%g %g %g %g"):format(x, x, 150 - tall / 2, x + lean, 150 - tall),
+    2.2, i % 3 == 0 and mood.near or mood.ground, { 0, 30 })
+end
+
+return union {
+  rect { -20, -20, 520, 170, fill = linear { from = { 0, 0 }, to = { 0, 150 },
+    { 0, mood.sky[1] }, { 0.6, mood.sky[2] }, { 1, mood.sky[3] } } },
+  circle { 398, 58, 25, fill = mood.light },
+  wood("far wood", 122, 62, "#b3bfba"), wood("wood", 142, 84, "#879997"),
+  jetty, lantern, reeds, heron:scale(1.12):translate(166, 150) }
