@@ -5,6 +5,7 @@
 --   loop     "all", or the frames, of NAME.webp: a picture that moves, instead of NAME.png
 --   strip    the numbers of frames that are shown side by side, instead of one frame
 --   grid     a contact sheet with this number of columns and rows, instead of a frame
+--   frames   of the contact sheet, instead of all
 --   background   a colour behind a frame that is transparent
 --   size     in pixels; of a frame, or what the contact sheet is made smaller to
 --   crop     x,y,w,h: only this part of a frame of that size
@@ -83,7 +84,8 @@ local list = {
   { name = "poster", page = "docs/guide.md" },
   { name = "title", script = "scripts/title.lua", frame = 36, size = "640x360" },
   { name = "credits", script = "scripts/credits.lua", frame = 109, size = "640x360" },
-  { name = "exposures", page = "docs/guide-picture.md", size = "480x270" },
+  { name = "exposures", page = "docs/guide-picture.md", frame = 4, size = "640x360",
+    still = "webp" },
   { name = "easing", page = "docs/guide.md" },
   { name = "blur", page = "docs/guide-picture.md", frame = 10 },
   { name = "contact", script = "scripts/waving.lua", grid = "4x2", size = "990x330" },
@@ -127,7 +129,8 @@ local list = {
   { name = "brush_lines", page = "docs/lua-shapes.md", frame = 40 },
   { name = "operators", page = "docs/lua-objects.md" },
   { name = "loader", page = "docs/lua-drawings.md", grid = "4x1", size = "670x108" },
-  { name = "day", page = "docs/guide-film.md", grid = "4x3", size = "1188x536" },
+  { name = "day", page = "docs/guide-film.md", grid = "3x2", frames = "30,136,173,198,224,252",
+    size = "960x387", still = "webp" },
   { name = "page", page = "docs/guide-film.md", frame = 24, size = "480x270" },
   { name = "listener", page = "docs/guide-film.md", frame = 30, before = SOUNDS },
   { name = "hat", script = "scripts/hat.lua", frame = 40, size = "480x270" },

@@ -83,7 +83,8 @@ local function make(picture)
       "--size", "320x180", "-o", output, options ~= "" and options or nil)
   elseif picture.grid then
     local sheet = ("%s/%s.sheet.png"):format(parts, picture.name)
-    run(program .. " contact", script, "--grid", picture.grid, "-o", sheet)
+    run(program .. " contact", script, "--grid", picture.grid, "-o", sheet,
+      table.unpack(picture.frames and { "--frames", picture.frames } or {}))
     run(program .. " convert", sheet, output, "--size", picture.size)
   else
     render(script, picture, output, picture.parts and absolute, options)

@@ -1,4 +1,4 @@
---- Three wet crossings from above, at night, each in a tile, and the lights of their cars at a time.
+--- Three wet crossings from above, at night, each in a tile, and the lights of their cars.
 local label = require "stage.label"
 local mood = require("stage.moods").storm
 local W, H = 200, 336
@@ -21,7 +21,7 @@ for i = 0, 6 do
   stripes[#stripes + 1] = rect { 57 + 13 * i, 84, 7, 24, fill = "#6f7f80" }
 end
 local corner = rect { 0, 0, 90, 160, radius = 26, fill = mood.near }
-  | rect { 0, 0, 84, 154, radius = 22, fill = "#425357" }
+  | rect { 0, 0, 84, 154, radius = 22, fill = "#3d4d51" }
 local roof = rect { 0, 0, 64, 130, radius = 4, fill = mood.ink }
   | rect { 0, 0, 60, 126, radius = 3, fill = "#2b383d" } | rect { 12, 84, 22, 16, fill = mood.ink }
 local still = union {
@@ -30,8 +30,8 @@ local still = union {
   union(stripes), corner:translate(-42, -44), corner:translate(152, -44),
   corner:translate(-42, 214), corner:translate(152, 214), roof:translate(-34, -62),
   roof:translate(176, -70), roof:translate(-38, 252), roof:translate(170, 262),
-  umbrella(72, 236, "#84918a"), umbrella(124, 228, mood.accent), umbrella(30, 88, mood.far),
-  umbrella(168, 232, mood.far), umbrella(110, 94, "#84918a") }
+  umbrella(54, 238, "#84918a"), umbrella(100, 232, mood.accent), umbrella(30, 88, mood.far),
+  umbrella(168, 232, mood.far), umbrella(102, 98, "#84918a") }
 
 local drops = {}
 for i = 1, 70 do
@@ -42,24 +42,16 @@ end
 
 --- The ways of four cars, their starts in units, and how fast they are.
 local cars = {
-  { "M78 -60V400", 60, 190 }, { "M122 400V-60", 40, 170 },
-  { "M-70 186C60 186 122 176 122 60V-200", 34, 150 }, { "M270 144H60C40 144 -60 144 -90 144", 20,
-    160 } }
+  { "M78 -160V440", 40, 330 }, { "M122 440V-200", 40, 260 },
+  { "M-130 186C60 186 122 176 122 60V-200", 10, 300 }, { "M330 144H-200", -30, 340 } }
 for _, car in ipairs(cars) do car.way = motion.along(car[1]) end
-
-local function lamp(x, y, tint, size)
-  return circle { x, y, 3 * size, fill = radial { centre = { x, y }, radius = 3 * size,
-    { 0, rgb(tint, 0.5) }, { 1, rgb(tint, 0) } } } | circle { x, y, size, fill = tint }
-end
 
 --- Two lights of a car, across its way.
 local function pair(way, at, tint)
-  local x, y = way:at(at / way.length)
-  local ahead_x, ahead_y = way:at(at / way.length + 0.002)
-  local dx, dy = ahead_x - x, ahead_y - y
-  local far = math.sqrt(dx * dx + dy * dy)
-  return lamp(x - 8 * dy / far, y + 8 * dx / far, tint, 2.6)
-    | lamp(x + 8 * dy / far, y - 8 * dx / far, tint, 2.6)
+  local x, y, direction = way:at(at / way.length)
+  local glow = circle { 0, 0, 10, fill = radial { centre = { 0, 0 }, radius = 10,
+    { 0, rgb(tint, 0.3) }, { 1, rgb(tint, 0) } } } | ellipse { 0, 0, 8, 2.3, fill = tint }
+  return (glow:translate(0, -8) | glow:translate(0, 8)):rotate(direction):translate(x, y)
 end
 
 local frame, tiles = rect { 0, 0, W, H, radius = 8 }, {}
@@ -68,6 +60,7 @@ for i, name in ipairs { "1", "4", "16" } do
     :translate(208 * i - 196, 12)
 end
 
+table.insert(tiles, 1, rect { 0, 0, 640, 360, fill = mood.ink })
 return { streets = cel(tiles), lights = function(tile, time)
   local lights = {}
   for i, car in ipairs(cars) do
