@@ -134,7 +134,11 @@ local list = {
   { name = "page", page = "docs/guide-film.md", frame = 24, size = "480x270" },
   { name = "listener", page = "docs/guide-film.md", frame = 30, before = SOUNDS },
   { name = "hat", script = "scripts/hat.lua", frame = 40, size = "480x270" },
-  { name = "evening", script = "scripts/relight.lua", strip = "1,56,96" },
+  { name = "relight", script = "docs/pictures/relight.lua", allow = "scripts", still = "webp",
+    parts = {
+      { script = "scripts/relight.lua", frame = 1, size = "320x480", file = "relight.1.png" },
+      { script = "scripts/relight.lua", frame = 60, size = "320x480", file = "relight.2.png" },
+      { script = "scripts/relight.lua", frame = 120, size = "320x480", file = "relight.3.png" } } },
   { name = "perspective", script = "scripts/perspective.lua", frame = 24, size = "640x360" },
   { name = "scanline", script = "scripts/scanline.lua", frame = 24, size = "640x360" },
   { name = "paper-01", script = "scripts/paper/figure01.lua", size = "480x360", allow = "scripts" },
