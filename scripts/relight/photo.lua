@@ -75,7 +75,8 @@ local bicycle = line("M-36 0m-26 0a26 26 0 1 0 52 0a26 26 0 1 0 -52 0M36 2m-26 0
   | path { d = "M26 -40H50L46 -18H30Z", fill = "#c9a05c" }
 
 local cat = path { fill = IRON,
-  d = "M-14 0C-20 -22 -8 -34 -4 -40L-7 -58L0 -51H7L14 -58L12 -42C16 -34 14 -8 16 0Z" } | line("M-12 -2Q-34 2 -30 -20", 5, IRON)
+  d = "M-14 0C-20 -22 -8 -34 -4 -40L-7 -58L0 -51H7L14 -58L12 -42C16 -34 14 -8 16 0Z" }
+  | line("M-12 -2Q-34 2 -30 -20", 5, IRON)
 
 local wash = union { line("M-10 96Q90 168 206 132", 1.6, IRON) }
 for i, at in ipairs { { 8, 109, CREAM }, { 42, 127, "#d9893b" }, { 80, 140, CREAM },
