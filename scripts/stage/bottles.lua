@@ -1,5 +1,5 @@
 --- A table by a wall, bottles of glass that light goes through, and a lantern in a hand.
-local TABLE, FOOT = 268, 290 -- where the table begins, and where the bottles stand
+local TABLE, FOOT = 268, 290 -- where the table begins, and where the bottles are
 local wall = rect { 0, 0, 640, TABLE, fill = linear { from = { 0, 0 }, to = { 0, TABLE },
   { 0, "#a08a6c" }, { 1, "#d8c19a" } } }
 local grain = {}
