@@ -21,7 +21,7 @@
 local SOUNDS, PLATES = { "docs/guide-film.md", "sounds" }, { "docs/cookbook.md", "plates" }
 
 local list = {
-  { name = "demo", script = "scripts/demo.lua", frame = 193, size = "800x450" },
+  { name = "demo", script = "scripts/demo.lua", frame = 193, size = "960x540", still = "webp" },
   { name = "moving", script = "docs/pictures/moving.lua", loop = "all", size = "960x540",
     fps = "24", quality = "26", most = 2200000 },
   { name = "little-one", script = "scripts/film.lua", frame = 463, size = "960x540",
@@ -64,7 +64,7 @@ local list = {
   { name = "hello", page = "docs/first-hour.md", loop = "all", size = "480x270" },
   { name = "gull", page = "docs/first-hour.md", loop = "all", size = "480x270" },
   { name = "coast", page = "docs/first-hour.md", loop = "all", size = "480x270",
-    quality = "54" },
+    quality = "46" },
   { name = "premiere", page = "docs/first-hour.md", loop = "all", size = "480x270",
     before = SOUNDS },
   { name = "beta", page = "docs/guide-picture.md" },
@@ -95,9 +95,10 @@ local list = {
   { name = "strokes", script = "scripts/strokes.lua", frame = 30, size = "720x405" },
   { name = "booleans", script = "scripts/booleans.lua", frame = 24, size = "720x240" },
   { name = "lights_and_gels", script = "scripts/lights_and_gels.lua", frame = 40,
-    size = "384x216" },
+    size = "640x360", still = "webp" },
   { name = "light_table", script = "scripts/light_table.lua", frame = 30, size = "560x315" },
-  { name = "parallax", script = "scripts/parallax.lua", frame = 24, size = "480x270" },
+  { name = "parallax", script = "scripts/parallax.lua", frame = 24, size = "640x360",
+    still = "webp" },
   { name = "pan", script = "scripts/pan.lua", frame = 30, size = "480x270" },
   { name = "terapixel", script = "docs/pictures/terapixel.lua", size = "480x270", still = "webp",
     parts = {
@@ -112,7 +113,8 @@ local list = {
   { name = "lip_cels", script = "scripts/lip_cels.lua", frame = 24, size = "480x270" },
   { name = "dissolve", script = "scripts/dissolve.lua", strip = "1,24,48" },
   { name = "gradient", script = "scripts/gradient.lua", frame = 24, size = "480x270" },
-  { name = "picture", script = "scripts/picture.lua", frame = 40, size = "480x270" },
+  { name = "picture", script = "scripts/picture.lua", frame = 40, size = "640x360",
+    still = "webp" },
   { name = "layers", script = "scripts/layers.lua", frame = 20, size = "640x360",
     still = "webp" },
   { name = "trace", script = "scripts/trace.lua", frame = 20, size = "640x360" },
@@ -190,15 +192,15 @@ for _, recipe in ipairs {
   { "camera_shake", "24-60", "320x180" }, { "race_car", "1-48" },
   { "sprite_sheet", 1, "360x202" }, { "transparent_video", "1-48", background = "#21465a" },
   { "crossfade", "12-48" }, { "rotoscope", "1-8", "480x270" }, { "speed_ramp", "all" },
-  { "mixed_sound", "49-96", "480x270", off = 24 },
+  { "mixed_sound", "49-96", "480x270", quality = "36", off = 24 },
   { "dancing_city", "97-144", before = SOUNDS, off = 24 },
   { "over_footage", "all", before = PLATES }, { "light_rays", "1-48" },
   { "glitch_title", "1-48", off = 24 }, { "logo_reveal", "all" },
   { "film_leader", "1-48", "320x180" },
   { "every_shape", "all" }, { "scarf_walk", "all" }, { "harvest_charts", "all" },
   { "deep_title", "all", "480x270", quality = "24", most = 250000 }, { "cel_shading", "1-48" },
-  { "boiling_lines", "all" }, { "paint_on_twos", "all" }, { "smear_frame", "all" },
-  { "day_and_night", "all" },
+  { "boiling_lines", "all" }, { "paint_on_twos", "all", quality = "28" },
+  { "smear_frame", "all", quality = "28" }, { "day_and_night", "all", quality = "20" },
 } do
   local frames, size = recipe[2], recipe[3]
   local loop = type(frames) == "string" and frames or nil
