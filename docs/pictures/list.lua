@@ -185,7 +185,7 @@ for _, recipe in ipairs {
   { "many_scripts", "all", off = 24 }, { "paper_texture", 1, "320x180" },
   { "hatching", 1, "360x202" },
   { "halftone_dots", 1, "360x202" }, { "three_depths", "all" },
-  { "snowfall", "all" }, { "clouds", 30, "320x180" },
+  { "snowfall", "all" }, { "clouds", 30, "480x270", still = "webp" },
   { "water_reflection", "all" }, { "heat_haze", "1-48" }, { "squash_stretch", "all" },
   { "magnifying_lens", "all" }, { "colour_fringes", 1, "320x180" }, { "old_film", "1-36" },
   { "morph_shapes", "all" }, { "confetti_burst", "1-42", "320x180", off = 24 },
@@ -197,7 +197,7 @@ for _, recipe in ipairs {
   { "over_footage", "all", before = PLATES }, { "light_rays", "1-48" },
   { "glitch_title", "1-48", off = 24 }, { "logo_reveal", "all" },
   { "film_leader", "1-48", "320x180" },
-  { "every_shape", "all" }, { "scarf_walk", "all" }, { "harvest_charts", "all" },
+  { "every_shape", "all" }, { "scarf_walk", "1-48", quality = "30" }, { "harvest_charts", "all" },
   { "deep_title", "all", "480x270", quality = "24", most = 250000 }, { "cel_shading", "1-48" },
   { "boiling_lines", "all" }, { "paint_on_twos", "all", quality = "28" },
   { "smear_frame", "all", quality = "28" }, { "day_and_night", "all", quality = "20" },
@@ -206,7 +206,7 @@ for _, recipe in ipairs {
   local loop = type(frames) == "string" and frames or nil
   list[#list + 1] = { name = recipe[1], page = "docs/cookbook.md", frame = not loop and frames,
     loop = loop, size = size or loop and "360x202", background = recipe.background,
-    before = recipe.before, quality = recipe.quality, off = recipe.off,
+    before = recipe.before, quality = recipe.quality, off = recipe.off, still = recipe.still,
     most = recipe.most }
 end
 
