@@ -19,12 +19,13 @@ local function flower(petals, radius, texture)
   return union(list)
 end
 
---- {colour of the rings, of the flower, the operation}
+--- {colour of the rings, of the flower, the operation, its sign}
 local operations = {
-  { "#3fa7a3", "#f7d9a0", function(a, b) return a | b end },
-  { "#1f4e79", "#d9483b", function(a, b) return a & b end },
-  { "#5b1f3a", "#fff1d6", function(a, b) return a - b end },
-  { "#f9dfae", "#1d1a38", function(a, b) return a ~ b end },
+  { "#3fa7a3", "#f7d9a0", function(a, b) return a | b end, "M0 -34V34" },
+  { "#1f4e79", "#d9483b", function(a, b) return a & b end,
+    "M27 30L-16 -14C-26 -38 14 -42 10 -20C6 -4 -26 0 -24 16C-20 38 20 30 24 -2" },
+  { "#5b1f3a", "#fff1d6", function(a, b) return a - b end, "M-26 0H26" },
+  { "#f9dfae", "#1d1a38", function(a, b) return a ~ b end, "M-30 6C-16 -22 14 22 30 -6" },
 }
 
 return film { size = { 1920, 640 }, frames = 48, frame = function(f)
@@ -37,6 +38,8 @@ return film { size = { 1920, 640 }, frames = 48, frame = function(f)
     local object = operation[3](rings, petals)
     art[#art + 1] = rect { (i - 1) * 480, 0, 480, 640, fill = grounds[i] }
     art[#art + 1] = object:translate((i - 0.5) * 480, 320)
+    art[#art + 1] = stroke { d = operation[4], width = 11, cap = "round",
+      fill = operation[i == 4 and 1 or 2] }:translate(i * 480 - 52, 582)
   end
   return cel(art)
 end }
