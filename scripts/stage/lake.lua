@@ -5,12 +5,12 @@ local mist, ink = "#dcdfd6", mood.ink
 --- A hill with firs on it, from the left edge to the right one.
 local function wood(seed, y, height, tint)
   local random, points = celspan.random(seed), { { -20, 150 }, { -20, y } }
-  for x = -14, 488, 12 do
+  for x = -14, 488, 17 do
     local foot = y - 9 * math.sin(x / 70 + #seed)
     local tall = height * (0.35 + 0.65 * random("tall" .. x) * (0.6 + 0.4 * math.sin(x / 40)))
-    for _, at in ipairs { { -5, 0 }, { -2.4, 0.42 }, { -3.6, 0.4 }, { -1.2, 0.72 }, { 0, 1 },
-      { 1.2, 0.72 }, { 3.6, 0.4 }, { 2.4, 0.42 }, { 5, 0 } } do
-      points[#points + 1] = { x + 1.3 * at[1], foot - tall * at[2] }
+    for _, at in ipairs { { -6, 0 }, { -2.6, 0.46 }, { -4, 0.42 }, { 0, 1 }, { 4, 0.42 },
+      { 2.6, 0.46 }, { 6, 0 } } do
+      points[#points + 1] = { x + 1.4 * at[1], foot - tall * at[2] }
     end
   end
   points[#points + 1] = { 500, 150 }
@@ -18,9 +18,8 @@ local function wood(seed, y, height, tint)
   return polygon(points)
 end
 
-local function line(d, width, tint, round)
-  return stroke { d = d, width = width, cap = "round", join = "round", fill = tint or ink,
-    taper = round }
+local function line(d, width, tint)
+  return stroke { d = d, width = width, cap = "round", join = "round", fill = tint or ink }
 end
 
 local heron = union {
@@ -39,15 +38,17 @@ local jetty = union {
   line("M274 124V156M332 126V156M398 126V156M462 126V156", 5.5),
   line("M290 131V66Q290 58 298 58H309M290 74L299 59", 3.4), line("M309 58V66", 1.6) }
 local glass = path { d = "M302 72H316L314 92H304Z", fill = "#ffd27a" }
-local lantern = glass:glow { radius = 22, colour = "#ffb347", gain = 1.5 }
-  | path { d = "M299 73L309 63L319 73ZM302 92H316V96H302Z", fill = mood.accent }
+local glow = radial { centre = { 309, 82 }, radius = 30, { 0, rgb("#ffb347", 0.7) },
+  { 0.5, rgb("#ffb347", 0.2) }, { 1, rgb("#ffb347", 0) } }
+local lantern = circle { 309, 82, 30, fill = glow } | glass | path { d = "M299 73L309 63L319 73ZM302 92H316V96H302Z", fill = mood.accent }
 
 local reeds = union {}
 for i = 1, 26 do
   local random = celspan.random("reed" .. i)
   local x, tall, lean = 66 * random "x" ^ 1.5 - 6, 24 + 46 * random "y", 14 * (random "lean" - 0.3)
-  reeds = reeds | line(("M%g 152Q%g %g %g %g"):format(x, x, 150 - tall / 2, x + lean, 150 - tall),
-    2.2, i % 3 == 0 and mood.near or mood.ground, { 0, 30 })
+  reeds = reeds | path { fill = i % 3 == 0 and mood.near or mood.ground,
+    d = ("M%g 152Q%g %g %g %gQ%g %g %g 152Z"):format(x - 1.4, x - 1, 150 - tall / 2, x + lean,
+      150 - tall, x + 1.6, 150 - tall / 2, x + 1.4) }
 end
 
 return union {
