@@ -40,7 +40,8 @@ local jetty = union {
 local glass = path { d = "M302 72H316L314 92H304Z", fill = "#ffd27a" }
 local glow = radial { centre = { 309, 82 }, radius = 30, { 0, rgb("#ffb347", 0.7) },
   { 0.5, rgb("#ffb347", 0.2) }, { 1, rgb("#ffb347", 0) } }
-local lantern = circle { 309, 82, 30, fill = glow } | glass | path { d = "M299 73L309 63L319 73ZM302 92H316V96H302Z", fill = mood.accent }
+local lantern = circle { 309, 82, 30, fill = glow } | glass
+  | path { d = "M299 73L309 63L319 73ZM302 92H316V96H302Z", fill = mood.accent }
 
 local reeds = union {}
 for i = 1, 26 do
