@@ -233,7 +233,7 @@ function pictureBeside(tokens, at, name) {
 
 // What the engine of web pages, or a page, does not have.
 const LACKING = /\/usr\/share\/fonts|stage\.(dance|noto)|\.png"|celspan\.(ink|layers|relight|sound|trace|track)/;
-const READ = ["drawings", "stage", "type", "demo/line.tsv"]; // in scripts/
+const READ = ["drawings", "stage", "type", "demo/line.tsv", "town/window.lua"]; // in scripts/
 const read = new Map(); // by scripts: the content of each file
 
 /** Keeps a block that others read, by its own name or that in backquotes above it. */
