@@ -38,8 +38,8 @@ static cs_parcels upright(celspan_context *context, double width) {
                                i == 2 ? 1 : 2,
                                PLANEFILE_SIDE / 4,
                                i == 0 ? PLANEFILE_SIDE / 4 : PLANEFILE_SIDE / 2};
-    CHECK(CS_APPEND(context, p.curves, p.curve_count, p.curve_capacity, line) == CELSPAN_OK);
-    CHECK(CS_APPEND(context, p.arcs, p.arc_count, p.arc_capacity, arc) == CELSPAN_OK);
+    CHECK(CS_ARRAY_APPEND(context, p.curves, p.curve_count, line) == CELSPAN_OK);
+    CHECK(CS_ARRAY_APPEND(context, p.arcs, p.arc_count, arc) == CELSPAN_OK);
   }
   return p;
 }

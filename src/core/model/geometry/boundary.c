@@ -11,9 +11,7 @@
 void cs_boundary_init(cs_boundary_set *set) { memset(set, 0, sizeof *set); }
 
 void cs_boundary_finish(cs_boundary_set *set, cs_memory *memory) {
-  cs_mem_free(memory, set->points, set->point_capacity * sizeof *set->points);
-  cs_mem_free(memory, set->pieces, set->piece_capacity * sizeof *set->pieces);
-  cs_mem_free(memory, set->chains, set->chain_capacity * sizeof *set->chains);
+  CS_ARRAYS_FREE(memory, set, points, chains);
   cs_boundary_init(set);
 }
 
@@ -24,9 +22,9 @@ celspan_status cs_boundary_expect(celspan_context *context, cs_boundary_set *set
   size_t curves = points > pieces ? points - pieces : 0;
   if (pieces == 0)
     return CELSPAN_OK;
-  CS_TRY(CS_RESERVE(context, set->points, set->point_capacity, set->point_count + 5 * curves / 2));
-  CS_TRY(CS_RESERVE(context, set->pieces, set->piece_capacity, set->piece_count + pieces));
-  return CS_RESERVE(context, set->chains, set->chain_capacity, set->chain_count + 2 * pieces / 5);
+  CS_TRY(CS_ARRAY_RESERVE(context, set->points, set->point_count + 5 * curves / 2));
+  CS_TRY(CS_ARRAY_RESERVE(context, set->pieces, set->piece_count + pieces));
+  return CS_ARRAY_RESERVE(context, set->chains, set->chain_count + 2 * pieces / 5);
 }
 
 bool cs_boundary_around_box(const celspan_box *box, const celspan_matrix *matrix,

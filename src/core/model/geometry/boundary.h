@@ -56,12 +56,10 @@ typedef struct cs_boundary_chain {
 
 typedef struct cs_boundary_set {
   bool keeps_curves; /* pieces have their points even where they are one chord */
-  cs_hpoint *points;
-  cs_boundary_piece *pieces;
-  cs_boundary_chain *chains;
-  size_t point_count, point_capacity;
-  size_t piece_count, piece_capacity;
-  size_t chain_count, chain_capacity;
+  CS_ARRAY(cs_hpoint, points);
+  CS_ARRAY(cs_boundary_piece, pieces);
+  CS_ARRAY(cs_boundary_chain, chains);
+  size_t point_count, piece_count, chain_count;
 } cs_boundary_set;
 
 typedef struct cs_boundary_frame {

@@ -69,8 +69,8 @@ static void append_chain(const cs_boundary_stretch *items, size_t begin, size_t 
 static celspan_status reserve(celspan_context *context, size_t count, cs_boundary_set *set) {
   if (count > UINT32_MAX - set->piece_count)
     return cs_fail(context, CELSPAN_LIMIT, "the frame has more than 4294967295 curve pieces");
-  CS_TRY(CS_RESERVE(context, set->pieces, set->piece_capacity, set->piece_count + count));
-  return CS_RESERVE(context, set->chains, set->chain_capacity, set->chain_count + count);
+  CS_TRY(CS_ARRAY_RESERVE(context, set->pieces, set->piece_count + count));
+  return CS_ARRAY_RESERVE(context, set->chains, set->chain_count + count);
 }
 
 celspan_status cs_stretches_join(celspan_context *context, const cs_boundary_stretches *stretches,

@@ -50,9 +50,9 @@ celspan_status cs_outline_contours(celspan_context *context, cs_outline *outline
  * items get their places among the points when they are asked for. */
 struct celspan_contours {
   celspan_context *context;
-  celspan_point *points;
-  celspan_contour *items;
-  size_t point_count, point_capacity, count, capacity;
+  CS_ARRAY(celspan_point, points);
+  CS_ARRAY(celspan_contour, items);
+  size_t point_count, count;
   celspan_point begin; /* where the last contour begins */
   bool is_drawing;     /* the last contour is not closed */
   bool has_failed;     /* memory ran out */
@@ -62,22 +62,22 @@ celspan_status celspan_contours_create(celspan_context *context, celspan_contour
   celspan_contours *contours;
   CS_TRY(CS_MAKE(context, contours, 1));
   *contours = (celspan_contours){.context = context};
-  celspan_status status = CS_RESERVE(context, contours->items, contours->capacity, 1);
+  celspan_status status = CS_ARRAY_RESERVE(context, contours->items, 1);
   return CS_GIVE(status, contours, celspan_contours_destroy, out);
 }
 
 static void add_point(celspan_contours *c, double x, double y) {
   if (c->has_failed)
     return;
-  c->has_failed = CS_APPEND(c->context, c->points, c->point_count, c->point_capacity,
-                            (celspan_point){x, y}) != CELSPAN_OK;
+  c->has_failed =
+      CS_ARRAY_APPEND(c->context, c->points, c->point_count, (celspan_point){x, y}) != CELSPAN_OK;
   c->items[c->count - 1].point_count++;
 }
 
 void celspan_contours_move_to(celspan_contours *c, double x, double y) {
   if (!c->has_failed)
-    c->has_failed = CS_APPEND(c->context, c->items, c->count, c->capacity,
-                              (celspan_contour){.closed = false}) != CELSPAN_OK;
+    c->has_failed = CS_ARRAY_APPEND(c->context, c->items, c->count,
+                                    (celspan_contour){.closed = false}) != CELSPAN_OK;
   c->begin = (celspan_point){x, y};
   c->is_drawing = true;
   add_point(c, x, y);
@@ -131,7 +131,6 @@ void celspan_contours_destroy(celspan_contours *c) {
   if (!c)
     return;
   cs_memory *memory = c->context->memory;
-  cs_mem_free(memory, c->points, c->point_capacity * sizeof *c->points);
-  cs_mem_free(memory, c->items, c->capacity * sizeof *c->items);
+  CS_ARRAYS_FREE(memory, c, points, items);
   cs_mem_free(memory, c, sizeof *c);
 }

@@ -9,10 +9,7 @@
 void cs_outline_init(cs_outline *outline) { *outline = (cs_outline){.is_plain = true}; }
 
 void cs_outline_finish(cs_outline *outline, cs_memory *memory) {
-  cs_mem_free(memory, outline->points, outline->point_capacity * sizeof *outline->points);
-  cs_mem_free(memory, outline->starts, outline->start_capacity * sizeof *outline->starts);
-  cs_mem_free(memory, outline->degrees, outline->degree_capacity * sizeof *outline->degrees);
-  cs_mem_free(memory, outline->contours, outline->contour_capacity * sizeof *outline->contours);
+  CS_ARRAYS_FREE(memory, outline, points, contours);
   cs_outline_init(outline);
 }
 
@@ -23,7 +20,7 @@ static celspan_status reserve_points(celspan_context *context, cs_outline *outli
     return cs_fail(context, CELSPAN_LIMIT,
                    "the outline has more than %zu points; split it into several objects",
                    POINT_LIMIT);
-  return CS_RESERVE(context, outline->points, outline->point_capacity, outline->point_count + more);
+  return CS_ARRAY_RESERVE(context, outline->points, outline->point_count + more);
 }
 
 static void append_point(cs_outline *outline, cs_hpoint point) {
@@ -50,8 +47,8 @@ celspan_status cs_outline_move(celspan_context *context, cs_outline *outline, cs
 celspan_status cs_outline_begin(celspan_context *context, cs_outline *outline, cs_hpoint to) {
   drop_empty(outline);
   CS_TRY(reserve_points(context, outline, 1));
-  CS_TRY(CS_APPEND(context, outline->contours, outline->contour_count, outline->contour_capacity,
-                   (uint32_t)outline->piece_count));
+  CS_TRY(CS_ARRAY_APPEND(context, outline->contours, outline->contour_count,
+                         (uint32_t)outline->piece_count));
   append_point(outline, to);
   return CELSPAN_OK;
 }
@@ -59,8 +56,8 @@ celspan_status cs_outline_begin(celspan_context *context, cs_outline *outline, c
 celspan_status cs_outline_piece(celspan_context *context, cs_outline *outline, int degree,
                                 const cs_hpoint *points) {
   CS_TRY(reserve_points(context, outline, (size_t)degree));
-  CS_TRY(CS_RESERVE(context, outline->starts, outline->start_capacity, outline->piece_count + 1));
-  CS_TRY(CS_RESERVE(context, outline->degrees, outline->degree_capacity, outline->piece_count + 1));
+  CS_TRY(CS_ARRAY_RESERVE(context, outline->starts, outline->piece_count + 1));
+  CS_TRY(CS_ARRAY_RESERVE(context, outline->degrees, outline->piece_count + 1));
   outline->starts[outline->piece_count] = (uint32_t)(outline->point_count - 1);
   outline->degrees[outline->piece_count++] = (uint8_t)degree;
   outline->is_plain = outline->is_plain && degree <= CS_OUTLINE_PLAIN_DEGREE;

@@ -14,7 +14,7 @@
  */
 #pragma once
 
-#include "base/context.h"
+#include "base/arrays.h"
 #include "base/hash.h"
 
 #define CS_OUTLINE_PLAIN_DEGREE 3
@@ -29,13 +29,11 @@ static inline celspan_point cs_hpoint_place(cs_hpoint p) {
 static inline cs_hpoint cs_hpoint_of(celspan_point p) { return (cs_hpoint){p.x, p.y, 1}; }
 
 typedef struct cs_outline {
-  cs_hpoint *points;
-  uint32_t *starts;
-  uint8_t *degrees;
-  uint32_t *contours;
-  size_t point_count, point_capacity;
-  size_t piece_count, start_capacity, degree_capacity;
-  size_t contour_count, contour_capacity;
+  CS_ARRAY(cs_hpoint, points);
+  CS_ARRAY(uint32_t, starts);
+  CS_ARRAY(uint8_t, degrees);
+  CS_ARRAY(uint32_t, contours);
+  size_t point_count, piece_count, contour_count;
   /* Every weight is 1, every coordinate passes cs_number_is_sane, and no piece has a degree over
    * CS_OUTLINE_PLAIN_DEGREE. */
   bool is_plain;

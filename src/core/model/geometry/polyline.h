@@ -42,7 +42,7 @@ static inline CELSPAN_CHECKED celspan_status cs_polyline_reserve(celspan_context
                                                                  size_t points) {
   if (set->point_count > UINT32_MAX - points)
     return cs_fail(context, CELSPAN_LIMIT, "the frame has more than 4294967295 curve points");
-  return CS_RESERVE(context, set->points, set->point_capacity, set->point_count + points);
+  return CS_ARRAY_RESERVE(context, set->points, set->point_count + points);
 }
 /* Makes one group, 0..chords / group - 1. If leaps is true, makes the whole leap that contains the
  * group, provided that one arc is near enough to the whole leap. */

@@ -9,8 +9,7 @@
 void cs_scanline_init(celspan_scanline_output *output) { memset(output, 0, sizeof *output); }
 
 void cs_scanline_finish(celspan_scanline_output *output, cs_memory *memory) {
-  cs_mem_free(memory, output->spans, output->span_capacity * sizeof *output->spans);
-  cs_mem_free(memory, output->paints, output->paint_capacity * sizeof *output->paints);
+  CS_ARRAYS_FREE(memory, output, spans, paints);
   cs_scanline_init(output);
 }
 
@@ -60,16 +59,11 @@ static celspan_status check_span(const celspan_scanline_output *output, double x
 
 static celspan_status append(celspan_scanline_output *output, const cs_scanline_span *span,
                              const celspan_paint *paints) {
-  void *spans = output->spans, *copies = output->paints;
-  CS_TRY(cs_mem_reserve(output->context, &spans, &output->span_capacity, output->span_count + 1,
-                        sizeof *output->spans));
-  output->spans = spans;
-  CS_TRY(cs_mem_reserve(output->context, &copies, &output->paint_capacity,
-                        output->paint_count + span->paint_count, sizeof *output->paints));
-  output->paints = copies;
+  CS_TRY(
+      CS_ARRAY_RESERVE(output->context, output->paints, output->paint_count + span->paint_count));
+  CS_TRY(CS_ARRAY_APPEND(output->context, output->spans, output->span_count, *span));
   for (size_t i = 0; i < span->paint_count; i++)
     output->paints[output->paint_count++] = cs_paint_from_straight(&paints[i]);
-  output->spans[output->span_count++] = *span;
   return CELSPAN_OK;
 }
 

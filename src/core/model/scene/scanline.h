@@ -13,7 +13,7 @@
  */
 #pragma once
 
-#include "base/context.h"
+#include "base/arrays.h"
 #include "model/colour/paint.h"
 
 typedef struct cs_scanline_span {
@@ -29,10 +29,9 @@ struct celspan_scanline_output {
   celspan_status status; /* why the first span was refused, even if the procedure ignores it */
   size_t emitted;        /* spans given on this row, empty ones and those out of bounds too */
   double last_x1;        /* the end of the previous span */
-  cs_scanline_span *spans;
-  cs_paint *paints;
-  size_t span_count, span_capacity;
-  size_t paint_count, paint_capacity;
+  CS_ARRAY(cs_scanline_span, spans);
+  CS_ARRAY(cs_paint, paints);
+  size_t span_count, paint_count;
 };
 
 void cs_scanline_init(celspan_scanline_output *output);

@@ -70,7 +70,7 @@ cs_stroke_part cs_ruler_part(cs_ruler *ruler, size_t contour, double from, doubl
 celspan_status cs_dashes_set(celspan_context *context, cs_dashes *dashes,
                              const celspan_stroke_desc *desc) {
   size_t count = desc->dash_count % 2 == 1 ? 2 * desc->dash_count : desc->dash_count;
-  CS_TRY(CS_MAKE(context, dashes->places, count));
+  CS_TRY(CS_ARRAY_MAKE(context, dashes->places, count));
   dashes->place_count = count;
   dashes->pattern = 0;
   for (size_t i = 0; i < count; i++) {
@@ -96,7 +96,7 @@ celspan_status cs_dashes_append(celspan_context *context, cs_stroke *stroke, cs_
                                 size_t parts) {
   cs_dashes *dashes = &stroke->dashes;
   run.begin = stroke->part_count;
-  CS_TRY(CS_APPEND(context, dashes->runs, dashes->run_count, dashes->run_capacity, run));
+  CS_TRY(CS_ARRAY_APPEND(context, dashes->runs, dashes->run_count, run));
   stroke->part_count += parts;
   return CELSPAN_OK;
 }

@@ -55,19 +55,12 @@ static cs_stroke_view unmoved(const cs_stroke_view *view) {
   return all;
 }
 
-static size_t bytes_of(const cs_outline *outline) {
-  return outline->point_capacity * sizeof *outline->points +
-         outline->start_capacity * sizeof *outline->starts +
-         outline->degree_capacity * sizeof *outline->degrees +
-         outline->contour_capacity * sizeof *outline->contours;
-}
-
 static celspan_status make(void *user, celspan_context *context, cs_cache_entry *entry) {
   const order *o = user;
   cs_outline *outline = &((cs_stroke_kept *)entry)->outline;
   cs_outline_init(outline);
   celspan_status status = cs_stroke_outline(context, o->stroke, &o->view, outline);
-  entry->bytes = sizeof(cs_stroke_kept) + bytes_of(outline);
+  entry->bytes = sizeof(cs_stroke_kept) + CS_ARRAYS_BYTES(outline, points, contours);
   return status;
 }
 

@@ -16,7 +16,7 @@ typedef struct divider {
 
 static celspan_status append_part(divider *d, cs_stroke_part part) {
   cs_stroke *stroke = d->stroke;
-  return CS_APPEND(d->context, stroke->parts, stroke->part_count, stroke->part_capacity, part);
+  return CS_ARRAY_APPEND(d->context, stroke->parts, stroke->part_count, part);
 }
 
 /* ---------------------------------------------------------------- dashes */
@@ -114,14 +114,14 @@ celspan_status cs_stroke_divide(celspan_context *context, cs_stroke *stroke,
   divider d = {.context = context, .stroke = stroke, .desc = desc};
   if (count == 0)
     return CELSPAN_OK;
-  CS_TRY(CS_MAKE(context, d.ends, count));
+  CS_TRY(CS_ARRAY_MAKE(context, stroke->dashes.ends, count));
+  d.ends = stroke->dashes.ends;
   if (desc->dash_count > 0) { /* the dashes are measured whenever they are read */
-    stroke->dashes.ends = d.ends;
     CS_TRY(cs_dashes_set(context, &stroke->dashes, desc));
     return divide(&d, closed);
   }
   celspan_status status = divide(&d, closed);
-  cs_mem_free(context->memory, d.ends, count * sizeof *d.ends);
+  CS_ARRAYS_FREE(context->memory, &stroke->dashes, ends, ends);
   return status;
 }
 
@@ -250,9 +250,9 @@ static void settle(cs_bezier *line) {
 celspan_status cs_stroke_append(celspan_context *context, cs_stroke *stroke, const cs_curve *curve,
                                 bool is_first) {
   size_t piece = stroke->line.piece_count, count = (size_t)curve->radius_degree + 1;
-  CS_TRY(CS_RESERVE(context, stroke->radii, stroke->radius_capacity, stroke->radius_count + count));
-  CS_TRY(CS_RESERVE(context, stroke->radius_starts, stroke->radius_start_capacity, piece + 1));
-  CS_TRY(CS_RESERVE(context, stroke->radius_degrees, stroke->radius_degree_capacity, piece + 1));
+  CS_TRY(CS_ARRAY_RESERVE(context, stroke->radii, stroke->radius_count + count));
+  CS_TRY(CS_ARRAY_RESERVE(context, stroke->radius_starts, piece + 1));
+  CS_TRY(CS_ARRAY_RESERVE(context, stroke->radius_degrees, piece + 1));
   if (is_first)
     CS_TRY(cs_outline_begin(context, &stroke->line, curve->line.points[0]));
   cs_bezier line;

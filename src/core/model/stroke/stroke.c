@@ -41,18 +41,9 @@ double cs_stroke_extent(const cs_stroke *stroke) {
 }
 
 void cs_stroke_finish(cs_stroke *stroke, cs_memory *memory) {
-  size_t pieces = stroke->line.piece_count;
   cs_outline_finish(&stroke->line, memory);
-  cs_mem_free(memory, stroke->radii, stroke->radius_capacity * sizeof *stroke->radii);
-  cs_mem_free(memory, stroke->radius_starts,
-              stroke->radius_start_capacity * sizeof *stroke->radius_starts);
-  cs_mem_free(memory, stroke->radius_degrees,
-              stroke->radius_degree_capacity * sizeof *stroke->radius_degrees);
-  cs_mem_free(memory, stroke->parts, stroke->part_capacity * sizeof *stroke->parts);
-  const cs_dashes *dashes = &stroke->dashes;
-  cs_mem_free(memory, dashes->places, dashes->place_count * sizeof *dashes->places);
-  cs_mem_free(memory, dashes->ends, pieces * sizeof *dashes->ends);
-  cs_mem_free(memory, dashes->runs, dashes->run_capacity * sizeof *dashes->runs);
+  CS_ARRAYS_FREE(memory, stroke, radii, parts);
+  CS_ARRAYS_FREE(memory, &stroke->dashes, places, runs);
 }
 
 /* ---------------------------------------------------------------- view */

@@ -51,24 +51,23 @@ typedef struct cs_dashes_run {
 
 typedef struct cs_dashes {
   /* Lengths from the beginning of the pattern: where dashes begin and end in turn. */
-  double *places;
-  size_t place_count;
+  CS_ARRAY(double, places);
+  CS_ARRAY(double, ends);        /* for each piece of the line: the length up to its end */
+  CS_ARRAY(cs_dashes_run, runs); /* in order, at most one for each contour */
+  size_t place_count, run_count;
   /* the length of the pattern, and the place in it at which contours begin */
   double pattern, offset;
-  double *ends;        /* for each piece of the line: the length of the line up to its end */
-  cs_dashes_run *runs; /* in order, at most one for each contour */
-  size_t run_count, run_capacity;
 } cs_dashes;
 
 typedef struct cs_stroke {
   cs_outline line;
-  double *radii;
-  uint32_t *radius_starts;
-  uint8_t *radius_degrees;
-  cs_stroke_part *parts; /* the parts of a line without dashes */
-  cs_dashes dashes;      /* place_count 0: the stroke has no dashes */
-  size_t radius_count, radius_capacity, radius_start_capacity, radius_degree_capacity;
-  size_t part_count, part_capacity; /* part_count: includes dashes */
+  CS_ARRAY(double, radii);
+  CS_ARRAY(uint32_t, radius_starts);
+  CS_ARRAY(uint8_t, radius_degrees);
+  CS_ARRAY(cs_stroke_part, parts); /* the parts of a line without dashes */
+  cs_dashes dashes;                /* place_count 0: the stroke has no dashes */
+  size_t radius_count;
+  size_t part_count; /* includes dashes */
   celspan_stroke_cap cap;
   celspan_stroke_join join;
   double miter;       /* as SVG's miter limit */

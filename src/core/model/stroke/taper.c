@@ -187,9 +187,9 @@ celspan_status cs_stroke_taper(celspan_context *context, cs_stroke *stroke,
   if (status == CELSPAN_OK) {
     made.parts = stroke->parts;
     made.part_count = stroke->part_count;
-    made.part_capacity = stroke->part_capacity;
+    made.parts_room = stroke->parts_room;
     stroke->parts = NULL;
-    stroke->part_capacity = 0;
+    stroke->parts_room = (cs_room){0};
     cs_stroke swapped = *stroke;
     *stroke = made;
     made = swapped;

@@ -62,7 +62,7 @@ celspan_status cs_contents_add(celspan_context *context, const cs_input *input,
     return cs_input_fail(context, input, -1, CELSPAN_LIMIT,
                          "has more than %d layers and groups, which is the limit",
                          CS_CONTENTS_LAYERS);
-  CS_TRY(CS_RESERVE(context, painting->layers, painting->capacity, painting->count + 1));
+  CS_TRY(CS_ARRAY_RESERVE(context, painting->layers, painting->count + 1));
   cs_contents_layer *layer = &painting->layers[painting->count++];
   *layer = (cs_contents_layer){.blend = "normal",
                                .parent = CS_CONTENTS_NONE,
@@ -76,7 +76,7 @@ celspan_status cs_contents_add(celspan_context *context, const cs_input *input,
 
 celspan_status cs_contents_note(celspan_context *context, celspan_painting *painting, size_t layer,
                                 const char *format, ...) {
-  CS_TRY(CS_RESERVE(context, painting->notes, painting->note_capacity, painting->note_count + 1));
+  CS_TRY(CS_ARRAY_RESERVE(context, painting->notes, painting->note_count + 1));
   cs_contents_remark *note = &painting->notes[painting->note_count++];
   *note = (cs_contents_remark){.layer = layer};
   va_list arguments;
@@ -98,7 +98,7 @@ celspan_status cs_contents_add_key(celspan_context *context, const cs_input *inp
   if (painting->key_count == CS_CONTENTS_KEYS)
     return cs_input_fail(context, input, -1, CELSPAN_LIMIT,
                          "has more than %d keys, which is the limit", CS_CONTENTS_KEYS);
-  CS_TRY(CS_RESERVE(context, painting->keys, painting->key_capacity, painting->key_count + 1));
+  CS_TRY(CS_ARRAY_RESERVE(context, painting->keys, painting->key_count + 1));
   *out = &painting->keys[painting->key_count++];
   **out = (cs_contents_key){.fields = CELSPAN_PAINTING_KEY};
   (*out)->fields.layer = cs_contents_last(painting);

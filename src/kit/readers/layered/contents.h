@@ -64,12 +64,10 @@ struct celspan_painting {
   atomic_size_t references;
   cs_memory *memory;
   int32_t width, height;
-  cs_contents_layer *layers;
-  size_t count, capacity;
-  cs_contents_remark *notes;
-  size_t note_count, note_capacity;
-  cs_contents_key *keys;
-  size_t key_count, key_capacity;
+  CS_ARRAY(cs_contents_layer, layers);
+  CS_ARRAY(cs_contents_remark, notes);
+  CS_ARRAY(cs_contents_key, keys);
+  size_t count, note_count, key_count;
   double rate; /* frames a second; 0: nothing moves */
   int32_t from, to;
   struct cs_profile_table *tables[CS_PROFILES_MOST]; /* references; kept until surfaces are made */

@@ -280,9 +280,7 @@ static void destroy(celspan_painting *painting) {
       painting->layers[i].source->kind->destroy(painting->layers[i].source);
   }
   drop_tables(painting);
-  cs_mem_free(memory, painting->layers, painting->capacity * sizeof *painting->layers);
-  cs_mem_free(memory, painting->notes, painting->note_capacity * sizeof *painting->notes);
-  cs_mem_free(memory, painting->keys, painting->key_capacity * sizeof *painting->keys);
+  CS_ARRAYS_FREE(memory, painting, layers, keys);
   cs_counted_free(memory, painting, sizeof *painting);
 }
 

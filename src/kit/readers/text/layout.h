@@ -52,23 +52,21 @@ typedef struct cs_layout {
   cs_font *fonts[CS_TEXT_FONTS]; /* pinned */
   size_t font_count;
 
-  /* By character; all have room for `room` items. */
-  size_t count, room;
-  uint32_t *characters;
-  uint32_t *places; /* the byte of the text at which each character begins */
-  uint32_t *scripts;
-  uint8_t *embeddings; /* in the paragraph */
-  uint8_t *directions; /* embeddings in the current line */
-  uint8_t *breaks;
+  size_t count;
+  /* By character. */
+  CS_ARRAY(uint32_t, characters);
+  CS_ARRAY(uint32_t, places); /* the byte of the text at which each character begins */
+  CS_ARRAY(uint32_t, scripts);
+  CS_ARRAY(uint8_t, embeddings); /* in the paragraph */
+  CS_ARRAY(uint8_t, directions); /* embeddings in the current line */
+  CS_ARRAY(uint8_t, breaks);
   /* of the letter that begins with the character, tracking included; otherwise 0 */
-  double *advances;
+  CS_ARRAY(double, advances);
 
-  cs_text_shaped *shaped; /* the current line, from left to right */
-  size_t shaped_count, shaped_capacity;
-  cs_text_glyph *glyphs;
-  size_t glyph_count, glyph_capacity;
-  cs_text_letter *letters;
-  size_t letter_count, letter_capacity;
+  CS_ARRAY(cs_text_shaped, shaped); /* the current line, from left to right */
+  CS_ARRAY(cs_text_glyph, glyphs);
+  CS_ARRAY(cs_text_letter, letters);
+  size_t shaped_count, glyph_count, letter_count;
   int32_t line;            /* the number of the next line */
   double width;            /* the width of the widest line */
   celspan_texture *fitted; /* the texture of all letters; NULL: not yet made */

@@ -40,8 +40,7 @@ static bool take(void *user, const cs_type_glyph *glyph) {
                         layout->noun, GLYPHS);
     return false;
   }
-  p->status = CS_RESERVE(layout->context, layout->shaped, layout->shaped_capacity,
-                         layout->shaped_count + 1);
+  p->status = CS_ARRAY_RESERVE(layout->context, layout->shaped, layout->shaped_count + 1);
   if (p->status != CELSPAN_OK)
     return false;
   cs_text_shaped *shaped = &layout->shaped[layout->shaped_count++];
@@ -119,8 +118,7 @@ typedef struct queue {
 } queue;
 
 static celspan_status append(cs_layout *layout, const cs_text_shaped *glyphs, size_t count) {
-  CS_TRY(CS_RESERVE(layout->context, layout->shaped, layout->shaped_capacity,
-                    layout->shaped_count + count));
+  CS_TRY(CS_ARRAY_RESERVE(layout->context, layout->shaped, layout->shaped_count + count));
   memcpy(layout->shaped + layout->shaped_count, glyphs, count * sizeof *glyphs);
   layout->shaped_count += count;
   return CELSPAN_OK;

@@ -76,9 +76,8 @@ typedef struct extent {
 /* Places a letter, whose glyphs have been shaped, at *x, and moves *x to its end. */
 static celspan_status place_letter(cs_layout *layout, size_t first, size_t end, double *x) {
   celspan_context *context = layout->context;
-  CS_TRY(CS_RESERVE(context, layout->letters, layout->letter_capacity, layout->letter_count + 1));
-  CS_TRY(CS_RESERVE(context, layout->glyphs, layout->glyph_capacity,
-                    layout->glyph_count + (end - first)));
+  CS_TRY(CS_ARRAY_RESERVE(context, layout->letters, layout->letter_count + 1));
+  CS_TRY(CS_ARRAY_RESERVE(context, layout->glyphs, layout->glyph_count + (end - first)));
   cs_text_letter *letter = &layout->letters[layout->letter_count++];
   *letter = (cs_text_letter){.begin = layout->shaped[first].glyph.character,
                              .glyph = layout->glyph_count,

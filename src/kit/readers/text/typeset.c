@@ -111,20 +111,16 @@ static celspan_status acquire_fonts(cs_layout *layout) {
 /* ---------------------------------------------------------------- characters */
 
 static celspan_status make_room(cs_layout *layout) {
-  cs_memory *memory = layout->context->memory;
+  celspan_context *context = layout->context;
   /* so that memory is allocated even for an empty text */
   size_t room = layout->desc->text_size + 1;
-  layout->room = room;
-  layout->characters = cs_mem_array(memory, room, sizeof *layout->characters);
-  layout->places = cs_mem_array(memory, room, sizeof *layout->places);
-  layout->scripts = cs_mem_array(memory, room, sizeof *layout->scripts);
-  layout->embeddings = cs_mem_array(memory, room, sizeof *layout->embeddings);
-  layout->directions = cs_mem_array(memory, room, sizeof *layout->directions);
-  layout->breaks = cs_mem_array(memory, room, sizeof *layout->breaks);
-  layout->advances = cs_mem_array(memory, room, sizeof *layout->advances);
-  bool is_made = layout->characters && layout->places && layout->scripts && layout->embeddings &&
-                 layout->directions && layout->breaks && layout->advances;
-  return is_made ? CELSPAN_OK : cs_fail_memory(layout->context);
+  CS_TRY(CS_ARRAY_MAKE(context, layout->characters, room));
+  CS_TRY(CS_ARRAY_MAKE(context, layout->places, room));
+  CS_TRY(CS_ARRAY_MAKE(context, layout->scripts, room));
+  CS_TRY(CS_ARRAY_MAKE(context, layout->embeddings, room));
+  CS_TRY(CS_ARRAY_MAKE(context, layout->directions, room));
+  CS_TRY(CS_ARRAY_MAKE(context, layout->breaks, room));
+  return CS_ARRAY_MAKE(context, layout->advances, room);
 }
 
 static celspan_status read_characters(cs_layout *layout) {
@@ -216,18 +212,8 @@ celspan_status cs_typeset_make(cs_layout *layout, celspan_context *context, cons
 }
 
 void cs_typeset_finish(cs_layout *layout) {
-  cs_memory *memory = layout->context->memory;
   celspan_texture_unref(layout->fitted);
   for (size_t i = 0; i < layout->font_count; i++)
     cs_font_release(layout->context, layout->fonts[i]);
-  cs_mem_free(memory, layout->characters, layout->room * sizeof *layout->characters);
-  cs_mem_free(memory, layout->places, layout->room * sizeof *layout->places);
-  cs_mem_free(memory, layout->scripts, layout->room * sizeof *layout->scripts);
-  cs_mem_free(memory, layout->embeddings, layout->room * sizeof *layout->embeddings);
-  cs_mem_free(memory, layout->directions, layout->room * sizeof *layout->directions);
-  cs_mem_free(memory, layout->breaks, layout->room * sizeof *layout->breaks);
-  cs_mem_free(memory, layout->advances, layout->room * sizeof *layout->advances);
-  cs_mem_free(memory, layout->shaped, layout->shaped_capacity * sizeof *layout->shaped);
-  cs_mem_free(memory, layout->glyphs, layout->glyph_capacity * sizeof *layout->glyphs);
-  cs_mem_free(memory, layout->letters, layout->letter_capacity * sizeof *layout->letters);
+  CS_ARRAYS_FREE(layout->context->memory, layout, characters, letters);
 }

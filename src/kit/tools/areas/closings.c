@@ -40,10 +40,9 @@ typedef struct closing {
 typedef struct closer {
   cs_ink_areas *areas;
   double gap;
-  line_end *ends;
-  size_t end_count, end_capacity;
-  closing *list;
-  size_t count, capacity;
+  CS_ARRAY(line_end, ends);
+  CS_ARRAY(closing, list);
+  size_t end_count, count;
 } closer;
 
 static inline bool is_shorter(const closing *a, const closing *b) {
@@ -88,7 +87,7 @@ static celspan_status add_end(closer *c, const cs_thin *thin, const uint32_t *pl
   if (!(length > 0))
     return CELSPAN_OK;
   const line_end end = {at, {x / length, y / length}, depth, false};
-  return CS_APPEND(c->areas->context, c->ends, c->end_count, c->end_capacity, end);
+  return CS_ARRAY_APPEND(c->areas->context, c->ends, c->end_count, end);
 }
 
 /* The share of the pixels of thinned lines that are thin. */
@@ -176,7 +175,7 @@ static bool go(const closer *c, const line_end *end, celspan_point along, closin
 }
 
 static celspan_status add(closer *c, const closing *one) {
-  return CS_APPEND(c->areas->context, c->list, c->count, c->capacity, *one);
+  return CS_ARRAY_APPEND(c->areas->context, c->list, c->count, *one);
 }
 
 /* The shortest way ahead, of rays 5 degrees apart: of ways as short, the straightest. */
@@ -291,7 +290,6 @@ celspan_status cs_ink_areas_close(cs_ink_areas *areas, double gap) {
   celspan_status status = find_ends(&c);
   for (int i = 0; status == CELSPAN_OK && gap > 0 && i < ROUNDS; i++)
     status = close_round(&c);
-  cs_mem_free(memory, c.ends, c.end_capacity * sizeof *c.ends);
-  cs_mem_free(memory, c.list, c.capacity * sizeof *c.list);
+  CS_ARRAYS_FREE(memory, &c, ends, list);
   return status;
 }

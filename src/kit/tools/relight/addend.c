@@ -17,13 +17,11 @@
 celspan_status cs_addend_init(celspan_context *context, int32_t width, int32_t height,
                               cs_addend *out) {
   *out = (cs_addend){.width = width, .height = height};
-  return CS_MAKE(context, out->rows, (size_t)height + 1);
+  return CS_ARRAY_MAKE(context, out->rows, (size_t)height + 1);
 }
 
 void cs_addend_finish(cs_addend *addend, cs_memory *memory) {
-  cs_mem_free(memory, addend->rows, ((size_t)addend->height + 1) * sizeof *addend->rows);
-  cs_mem_free(memory, addend->spans, addend->span_capacity * sizeof *addend->spans);
-  cs_mem_free(memory, addend->values, addend->value_capacity * sizeof *addend->values);
+  CS_ARRAYS_FREE(memory, addend, rows, values);
   *addend = (cs_addend){0};
 }
 
@@ -58,12 +56,13 @@ celspan_status cs_addend_writer_init(celspan_context *context, cs_addend *addend
 }
 
 /* Frees the memory that was not needed. */
-static void trim(void **items, size_t *capacity, size_t count, size_t size, cs_memory *memory) {
-  void *fitting = count > 0 ? cs_mem_resize(memory, *items, *capacity * size, count * size) : NULL;
+static void trim(cs_memory *memory, void **items, cs_room *room, size_t count) {
+  size_t size = room->item_size, old = room->capacity * size;
+  void *fitting = count > 0 ? cs_mem_resize(memory, *items, old, count * size) : NULL;
   if (!fitting)
     return;
   *items = fitting;
-  *capacity = count;
+  room->capacity = (uint32_t)count;
 }
 
 void cs_addend_writer_finish(celspan_context *context, cs_addend_writer *writer) {
@@ -72,19 +71,16 @@ void cs_addend_writer_finish(celspan_context *context, cs_addend_writer *writer)
     return;
   cs_mem_free(context->memory, writer->dense,
               (size_t)addend->width * writer->plane_count * sizeof *writer->dense);
-  trim((void **)&addend->spans, &addend->span_capacity, addend->span_count, sizeof *addend->spans,
-       context->memory);
-  trim((void **)&addend->values, &addend->value_capacity, addend->value_count,
-       sizeof *addend->values, context->memory);
+  trim(context->memory, (void **)&addend->spans, &addend->spans_room, addend->span_count);
+  trim(context->memory, (void **)&addend->values, &addend->values_room, addend->value_count);
   writer->addend = NULL;
 }
 
 /* Appends a span with room for its values, which the caller fills. */
 static celspan_status append(celspan_context *context, cs_addend *addend, cs_addend_span span,
                              size_t value_count, float **values) {
-  CS_TRY(CS_RESERVE(context, addend->spans, addend->span_capacity, addend->span_count + 1));
-  CS_TRY(CS_RESERVE(context, addend->values, addend->value_capacity,
-                    addend->value_count + value_count));
+  CS_TRY(CS_ARRAY_RESERVE(context, addend->spans, addend->span_count + 1));
+  CS_TRY(CS_ARRAY_RESERVE(context, addend->values, addend->value_count + value_count));
   span.first = addend->value_count;
   *values = addend->values + addend->value_count;
   addend->value_count += value_count;

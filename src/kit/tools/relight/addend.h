@@ -42,11 +42,10 @@ typedef struct cs_addend_span {
 
 typedef struct cs_addend {
   int32_t width, height;
-  size_t *rows; /* the first span of each row, and the end of the last */
-  cs_addend_span *spans;
-  float *values;
-  size_t span_count, span_capacity;
-  size_t value_count, value_capacity;
+  CS_ARRAY(size_t, rows); /* the first span of each row, and the end of the last */
+  CS_ARRAY(cs_addend_span, spans);
+  CS_ARRAY(float, values);
+  size_t span_count, value_count;
 } cs_addend;
 
 /* Errors: NO_MEMORY. */

@@ -58,8 +58,8 @@ static int go_on(const walker *w, int32_t x, int32_t y, int direction) {
 
 static celspan_status add_node(walker *w, int32_t x, int32_t y) {
   cs_borders *out = w->out;
-  return CS_APPEND(w->context, out->nodes, out->node_count, out->node_capacity,
-                   (cs_node){x, y, {CS_WAY_NONE, CS_WAY_NONE, CS_WAY_NONE, CS_WAY_NONE}});
+  return CS_ARRAY_APPEND(w->context, out->nodes, out->node_count,
+                         (cs_node){x, y, {CS_WAY_NONE, CS_WAY_NONE, CS_WAY_NONE, CS_WAY_NONE}});
 }
 
 static bool is_side(const walker *w, int32_t x, int32_t y) {
@@ -127,8 +127,7 @@ static bool is_walked(const walker *w, int32_t x, int32_t y, int direction) {
 static celspan_status add_direction(walker *w, int32_t x, int32_t y, int direction) {
   cs_borders *out = w->out;
   unsigned char bit;
-  CS_TRY(
-      CS_RESERVE(w->context, out->directions, out->direction_capacity, out->direction_count + 1));
+  CS_TRY(CS_ARRAY_RESERVE(w->context, out->directions, out->direction_count + 1));
   out->directions[out->direction_count++] = (unsigned char)direction;
   unsigned char *mark = mark_of(w, x, y, direction, &bit);
   *mark |= bit;
@@ -168,7 +167,7 @@ static celspan_status add_chain(walker *w, int32_t x, int32_t y, int direction, 
   chain.left = region_beside(w, x, y, direction, true);
   chain.right = region_beside(w, x, y, direction, false);
   CS_TRY(walk(w, &chain, direction));
-  CS_TRY(CS_RESERVE(w->context, out->chains, out->chain_capacity, out->chain_count + 1));
+  CS_TRY(CS_ARRAY_RESERVE(w->context, out->chains, out->chain_count + 1));
   cs_way way = (cs_way)(2 * out->chain_count);
   out->chains[out->chain_count++] = chain;
   if (from == CS_NODE_NONE)
@@ -220,9 +219,6 @@ celspan_status cs_borders_make(celspan_context *context, const cs_material *mate
 }
 
 void cs_borders_finish(cs_borders *borders, celspan_context *context) {
-  cs_memory *memory = context->memory;
-  cs_mem_free(memory, borders->nodes, borders->node_capacity * sizeof *borders->nodes);
-  cs_mem_free(memory, borders->chains, borders->chain_capacity * sizeof *borders->chains);
-  cs_mem_free(memory, borders->directions, borders->direction_capacity);
+  CS_ARRAYS_FREE(context->memory, borders, nodes, directions);
   *borders = (cs_borders){.nodes = NULL};
 }

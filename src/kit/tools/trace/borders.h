@@ -16,6 +16,7 @@
  */
 #pragma once
 
+#include "inside/context.h"
 #include "tools/trace/regions.h"
 
 #define CS_NODE_NONE UINT32_MAX
@@ -38,12 +39,10 @@ typedef struct cs_chain {
 } cs_chain;
 
 typedef struct cs_borders {
-  cs_node *nodes; /* by y, then x */
-  size_t node_count, node_capacity;
-  cs_chain *chains;
-  size_t chain_count, chain_capacity;
-  unsigned char *directions;
-  size_t direction_count, direction_capacity;
+  CS_ARRAY(cs_node, nodes); /* by y, then x */
+  CS_ARRAY(cs_chain, chains);
+  CS_ARRAY(unsigned char, directions);
+  size_t node_count, chain_count, direction_count;
 } cs_borders;
 
 /* Whether a chain is part of the rim of the picture. */

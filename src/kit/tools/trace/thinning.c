@@ -251,7 +251,7 @@ static celspan_status list_pixels(finder *f) {
 
 static celspan_status add_place(finder *f, size_t place) {
   cs_branches *out = f->out;
-  return CS_APPEND(f->context, out->places, out->place_count, out->place_capacity, (uint32_t)place);
+  return CS_ARRAY_APPEND(f->context, out->places, out->place_count, (uint32_t)place);
 }
 
 /* The neighbour of a pixel on a line that was not visited before; sides are preferred to corners.
@@ -284,7 +284,7 @@ static celspan_status walk(finder *f, size_t from, size_t over) {
   if (place && !branch.is_closed)
     CS_TRY(add_place(f, place));
   branch.count = out->place_count - branch.first;
-  return CS_APPEND(f->context, out->list, out->count, out->capacity, branch);
+  return CS_ARRAY_APPEND(f->context, out->list, out->count, branch);
 }
 
 /* A branch of one step between two ends or forks is found from the first of them. Between two forks
@@ -381,8 +381,6 @@ celspan_status cs_branches_find(celspan_context *context, cs_thin *thin, cs_bran
 }
 
 void cs_branches_finish(cs_branches *branches, celspan_context *context) {
-  cs_mem_free(context->memory, branches->list, branches->capacity * sizeof *branches->list);
-  cs_mem_free(context->memory, branches->places,
-              branches->place_capacity * sizeof *branches->places);
+  CS_ARRAYS_FREE(context->memory, branches, list, places);
   *branches = (cs_branches){.list = NULL};
 }

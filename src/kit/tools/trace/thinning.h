@@ -12,6 +12,7 @@
  */
 #pragma once
 
+#include "inside/context.h"
 #include "tools/trace/labels.h"
 
 /* A plane of pixels with a rim of one pixel, like labels: 1 + label, 0: not drawn. */
@@ -52,10 +53,9 @@ typedef struct cs_branch {
 } cs_branch;
 
 typedef struct cs_branches {
-  cs_branch *list;
-  size_t count, capacity;
-  uint32_t *places;
-  size_t place_count, place_capacity;
+  CS_ARRAY(cs_branch, list);
+  CS_ARRAY(uint32_t, places);
+  size_t count, place_count;
 } cs_branches;
 
 /* Errors: NO_MEMORY. *out must be finished also after an error. */

@@ -12,7 +12,7 @@ static celspan_status find_matte(cs_mattes *mattes, const char *name, size_t *ou
   for (*out = 0; *out < mattes->count; ++*out)
     if (strcmp(mattes->mattes[*out].name, name) == 0)
       return CELSPAN_OK;
-  CS_TRY(CS_RESERVE(mattes->context, mattes->mattes, mattes->capacity, mattes->count + 1));
+  CS_TRY(CS_ARRAY_RESERVE(mattes->context, mattes->mattes, mattes->count + 1));
   snprintf(mattes->mattes[mattes->count++].name, sizeof mattes->mattes->name, "%s", name);
   return CELSPAN_OK;
 }
@@ -200,7 +200,7 @@ static celspan_status add_step(const place *p, size_t matte) {
                    "the frame has more than %d pieces with different names over each other, and "
                    "as many mattes are made at most: name groups instead of their parts",
                    CS_MATTES_MOST);
-  CS_TRY(CS_RESERVE(context, mattes->steps, mattes->step_capacity, mattes->step_count + 1));
+  CS_TRY(CS_ARRAY_RESERVE(context, mattes->steps, mattes->step_count + 1));
   CS_TRY(CS_MAKE(context, cels, count));
   celspan_status status = show_rest(p, cels, &rostrum);
   cs_mem_free(context->memory, cels, count * sizeof *cels);
@@ -276,7 +276,6 @@ void cs_mattes_finish(cs_mattes *mattes) {
   cs_memory *memory = mattes->context->memory;
   for (size_t i = 0; i < mattes->step_count; i++)
     celspan_rostrum_unref(mattes->steps[i].exposure.rostrum);
-  cs_mem_free(memory, mattes->steps, mattes->step_capacity * sizeof *mattes->steps);
-  cs_mem_free(memory, mattes->mattes, mattes->capacity * sizeof *mattes->mattes);
+  CS_ARRAYS_FREE(memory, mattes, mattes, steps);
   *mattes = (cs_mattes){0};
 }

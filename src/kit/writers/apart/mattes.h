@@ -37,10 +37,9 @@ typedef struct cs_matte_step {
 
 typedef struct cs_mattes {
   celspan_context *context;
-  cs_matte *mattes;
-  size_t count, capacity;
-  cs_matte_step *steps;
-  size_t step_count, step_capacity;
+  CS_ARRAY(cs_matte, mattes);
+  CS_ARRAY(cs_matte_step, steps);
+  size_t count, step_count;
 } cs_mattes;
 
 /* by_objects: by the names of objects; where there is none, of their cels. Else by the names of

@@ -111,8 +111,7 @@ static celspan_status append(const making *m, bool is_line, const celspan_point 
   cs_parcel_curve curve = {.is_line = is_line};
   for (int i = 0; i < 4; i++)
     curve.points[i] = scaled(m, points[i]);
-  return CS_APPEND(m->context, m->parcels->curves, m->parcels->curve_count,
-                   m->parcels->curve_capacity, curve);
+  return CS_ARRAY_APPEND(m->context, m->parcels->curves, m->parcels->curve_count, curve);
 }
 
 static celspan_status append_line(const making *m, celspan_point from, celspan_point to) {
@@ -213,7 +212,7 @@ static celspan_status end_arc(making *m, int32_t height) {
   parcels->curves[parcels->curve_count - 1].points[3].y = arc.foot / SIDE * parcels->height;
   if (parcels->arc_count == CS_PARCEL_ARCS)
     return cs_arc_refuse(m->context);
-  return CS_APPEND(m->context, parcels->arcs, parcels->arc_count, parcels->arc_capacity, arc);
+  return CS_ARRAY_APPEND(m->context, parcels->arcs, parcels->arc_count, arc);
 }
 
 /* The arc leaves the frame with a curve, and comes back at its end, or later. */

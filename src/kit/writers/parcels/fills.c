@@ -59,7 +59,7 @@ static celspan_status put_stop(celspan_context *context, const sample *of, size_
   const cs_fill_stop *last = out->stop_count > first ? &out->stops[out->stop_count - 1] : NULL;
   if (last && last->at == stop.at && memcmp(last->code, stop.code, 4) == 0)
     return CELSPAN_OK;
-  return CS_APPEND(context, out->stops, out->stop_count, out->stop_capacity, stop);
+  return CS_ARRAY_APPEND(context, out->stops, out->stop_count, stop);
 }
 
 /* Puts the stops that samples after `from` need, up to `to`. */
@@ -256,7 +256,7 @@ static celspan_status find(celspan_context *context, cs_fill fill, cs_fill_table
   } else {
     fill.is_opaque = is_opaque(&fill, parcels);
     CS_TRY(cs_hash_table_add(&table->known, context, key, number));
-    CS_TRY(CS_APPEND(context, parcels->fills, parcels->fill_count, parcels->fill_capacity, fill));
+    CS_TRY(CS_ARRAY_APPEND(context, parcels->fills, parcels->fill_count, fill));
   }
   *out = (uint32_t)number;
   return CELSPAN_OK;
@@ -280,7 +280,7 @@ celspan_status cs_fill_find(celspan_context *context, const celspan_plane *plane
   uint32_t *picture = &table->pictures[fill.is_opaque];
   if (*picture == 0) {
     *picture = (uint32_t)parcels->fill_count;
-    CS_TRY(CS_APPEND(context, parcels->fills, parcels->fill_count, parcels->fill_capacity, fill));
+    CS_TRY(CS_ARRAY_APPEND(context, parcels->fills, parcels->fill_count, fill));
   }
   *out = *picture;
   return CELSPAN_OK;

@@ -55,7 +55,7 @@ static celspan_status collect(collecting *g, cs_parcels *out) {
   uint32_t around = 0;
   out->width = info.width;
   out->height = info.height;
-  CS_TRY(CS_APPEND(g->context, out->fills, out->fill_count, out->fill_capacity, (cs_fill){0}));
+  CS_TRY(CS_ARRAY_APPEND(g->context, out->fills, out->fill_count, (cs_fill){0}));
   for (uint32_t i = 0; i < info.band_count; i++)
     CS_TRY(collect_part(g, planefile_plane_band(plane, i), out));
   CS_TRY(cs_fill_find(g->context, g->plane, planefile_plane_band(plane, 0), 0, &g->table, out,
@@ -258,8 +258,8 @@ static celspan_status walk_loop(const tracing *t, uint32_t first) {
   cs_parcel_loop loop = {p->walk_count, 0};
   for (uint32_t from = first;;) {
     uint32_t to = from ^ 1, next = t->partners[to];
-    CS_TRY(CS_APPEND(t->context, p->walks, p->walk_count, p->walk_capacity,
-                     (cs_parcel_walk){from / 4, from & 1}));
+    CS_TRY(
+        CS_ARRAY_APPEND(t->context, p->walks, p->walk_count, (cs_parcel_walk){from / 4, from & 1}));
     t->partners[from] = from;
     t->partners[to] = to;
     if (next == first)
@@ -267,7 +267,7 @@ static celspan_status walk_loop(const tracing *t, uint32_t first) {
     from = next;
   }
   loop.walk_count = p->walk_count - loop.walk;
-  return CS_APPEND(t->context, p->loops, p->loop_count, p->loop_capacity, loop);
+  return CS_ARRAY_APPEND(t->context, p->loops, p->loop_count, loop);
 }
 
 static celspan_status walk_all(const tracing *t, uint32_t set_count, size_t *first) {
@@ -347,11 +347,6 @@ celspan_status cs_parcels_make(celspan_context *context, const celspan_plane *pl
 }
 
 void cs_parcels_finish(cs_parcels *p, cs_memory *memory) {
-  cs_mem_free(memory, p->fills, p->fill_capacity * sizeof *p->fills);
-  cs_mem_free(memory, p->stops, p->stop_capacity * sizeof *p->stops);
-  cs_mem_free(memory, p->arcs, p->arc_capacity * sizeof *p->arcs);
-  cs_mem_free(memory, p->curves, p->curve_capacity * sizeof *p->curves);
-  cs_mem_free(memory, p->walks, p->walk_capacity * sizeof *p->walks);
-  cs_mem_free(memory, p->loops, p->loop_capacity * sizeof *p->loops);
+  CS_ARRAYS_FREE(memory, p, fills, loops);
   *p = (cs_parcels){0};
 }

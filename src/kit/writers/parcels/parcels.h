@@ -72,15 +72,13 @@ typedef struct cs_parcel_loop {
 
 typedef struct cs_parcels {
   double width, height; /* film units */
-  cs_fill *fills;
-  cs_fill_stop *stops;
-  cs_parcel_arc *arcs;
-  cs_parcel_curve *curves;
-  cs_parcel_walk *walks;
-  cs_parcel_loop *loops;
-  size_t fill_count, fill_capacity, stop_count, stop_capacity;
-  size_t arc_count, arc_capacity, curve_count, curve_capacity;
-  size_t walk_count, walk_capacity, loop_count, loop_capacity;
+  CS_ARRAY(cs_fill, fills);
+  CS_ARRAY(cs_fill_stop, stops);
+  CS_ARRAY(cs_parcel_arc, arcs);
+  CS_ARRAY(cs_parcel_curve, curves);
+  CS_ARRAY(cs_parcel_walk, walks);
+  CS_ARRAY(cs_parcel_loop, loops);
+  size_t fill_count, stop_count, arc_count, curve_count, walk_count, loop_count;
   int32_t columns, rows; /* the steps of the plane's grid, across and down, in its units */
   bool is_sum;           /* it is the sum of several pictures and has no areas */
 } cs_parcels;

@@ -131,7 +131,7 @@ static celspan_status put_part(celspan_context *context, cs_parcels *parcels, cs
                                int32_t foot) {
   part->foot = foot;
   part->curve_count = parcels->curve_count - part->curve;
-  CS_TRY(CS_APPEND(context, parcels->arcs, parcels->arc_count, parcels->arc_capacity, *part));
+  CS_TRY(CS_ARRAY_APPEND(context, parcels->arcs, parcels->arc_count, *part));
   part->top = foot;
   part->curve = parcels->curve_count;
   return CELSPAN_OK;
@@ -139,7 +139,7 @@ static celspan_status put_part(celspan_context *context, cs_parcels *parcels, cs
 
 static celspan_status put_curve(celspan_context *context, cs_parcels *parcels,
                                 cs_parcel_curve curve) {
-  return CS_APPEND(context, parcels->curves, parcels->curve_count, parcels->curve_capacity, curve);
+  return CS_ARRAY_APPEND(context, parcels->curves, parcels->curve_count, curve);
 }
 
 /* Replaces an arc by its parts; the first one has its place. */

@@ -127,7 +127,7 @@ static celspan_status check_plan(celspan_context *context, const cs_plan *plan) 
 /* Pushes what is drawn for an exposure, which plans borrow from. */
 static celspan_status show(celspan_context *context, const celspan_exposure *exposure,
                            const cs_view *view, cs_plane_frame *out) {
-  CS_TRY(CS_RESERVE(context, out->shown, out->shown_capacity, out->shown_count + 1));
+  CS_TRY(CS_ARRAY_RESERVE(context, out->shown, out->shown_count + 1));
   CS_TRY(cs_rostrum_shown(context, exposure->rostrum, view->film_width, view->film_height, 0,
                           cs_space_inside(view->film_space, view->space),
                           &out->shown[out->shown_count]));
@@ -141,7 +141,7 @@ static celspan_status record(celspan_context *context, const celspan_exposure *e
                              cs_plane_frame *out) {
   const cs_antialias antialias = {.mode = CELSPAN_ANTIALIAS_AREA};
   cs_plan plan = {0};
-  CS_TRY(CS_RESERVE(context, out->plans, out->plan_capacity, out->plan_count + 1));
+  CS_TRY(CS_ARRAY_RESERVE(context, out->plans, out->plan_count + 1));
   CS_TRY(show(context, exposure, view, out));
   CS_TRY(cs_compile(context, out->shown[out->shown_count - 1], view, &antialias, 1, &plan));
   celspan_status status = check_plan(context, &plan);
@@ -209,10 +209,9 @@ void cs_plane_frame_finish(cs_plane_frame *frame, cs_memory *memory) {
   cs_record_finish(&frame->record, memory);
   for (size_t i = 0; i < frame->plan_count; i++)
     cs_compile_free(&frame->plans[i], memory);
-  cs_mem_free(memory, frame->plans, frame->plan_capacity * sizeof *frame->plans);
   for (size_t i = 0; i < frame->shown_count; i++)
     celspan_rostrum_unref(frame->shown[i]);
-  cs_mem_free(memory, frame->shown, frame->shown_capacity * sizeof *frame->shown);
+  CS_ARRAYS_FREE(memory, frame, plans, shown);
   *frame = (cs_plane_frame){0};
 }
 

@@ -33,10 +33,9 @@ CELSPAN_CHECKED celspan_status cs_plane_report_record(celspan_context *context,
 /* A frame before it is written, and the plans that its pictures are made from. */
 typedef struct cs_plane_frame {
   cs_recording record;
-  cs_plan *plans;
-  size_t plan_count, plan_capacity;
-  celspan_rostrum **shown; /* what they were made of: references */
-  size_t shown_count, shown_capacity;
+  CS_ARRAY(cs_plan, plans);
+  CS_ARRAY(celspan_rostrum *, shown); /* what they were made of: references */
+  size_t plan_count, shown_count;
 } cs_plane_frame;
 /* The visible part of a frame, whose places are on a grid. out: must be finished, also after an
  * error. Errors: those of celspan_plane_create. */

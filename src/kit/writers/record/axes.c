@@ -97,7 +97,7 @@ static celspan_status add_axis(const cs_record_source *source, cs_recording *rec
   cs_hash key = hash_axis(axis);
   size_t number = record->axis_count;
   if (!cs_hash_table_find(source->known, key, &number)) {
-    CS_TRY(CS_APPEND(context, record->axes, record->axis_count, record->axis_capacity, *axis));
+    CS_TRY(CS_ARRAY_APPEND(context, record->axes, record->axis_count, *axis));
     CS_TRY(cs_hash_table_add(source->known, context, key, number));
   }
   *out = (uint32_t)number + 1;

@@ -17,11 +17,9 @@ struct cs_record_picture {
   celspan_status *status; /* the status of reading it, if reading failed */
 };
 
-void cs_record_pictures_finish(cs_recording *record, cs_memory *memory) {
+void cs_record_pictures_finish(cs_recording *record) {
   for (size_t i = 0; i < record->picture_count; i++)
     cs_picture_unref(record->sources[i].picture);
-  cs_mem_free(memory, record->pictures, record->picture_capacity * sizeof *record->pictures);
-  cs_mem_free(memory, record->sources, record->source_capacity * sizeof *record->sources);
 }
 
 /* ---------------------------------------------------------------- pixels */
@@ -103,12 +101,10 @@ static celspan_status find_form(celspan_context *context, const cs_picture *pict
 static celspan_status append(const cs_record_picture *source, planefile_picture picture,
                              cs_recording *record) {
   celspan_context *context = source->context;
-  celspan_status status =
-      CS_RESERVE(context, record->sources, record->source_capacity, record->picture_count + 1);
+  celspan_status status = CS_ARRAY_RESERVE(context, record->sources, record->picture_count + 1);
   if (status == CELSPAN_OK) {
     record->sources[record->picture_count] = *source;
-    status = CS_APPEND(context, record->pictures, record->picture_count, record->picture_capacity,
-                       picture);
+    status = CS_ARRAY_APPEND(context, record->pictures, record->picture_count, picture);
   }
   if (status != CELSPAN_OK)
     cs_picture_unref(source->picture);

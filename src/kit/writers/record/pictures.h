@@ -32,4 +32,4 @@ CELSPAN_CHECKED celspan_status cs_record_image_hides(celspan_context *context,
                                                      const cs_image_layer *image, bool *out);
 /* Must be called after all pictures have been added, so that they can be read. */
 void cs_record_pictures_join(cs_recording *record);
-void cs_record_pictures_finish(cs_recording *record, cs_memory *memory);
+void cs_record_pictures_finish(cs_recording *record);

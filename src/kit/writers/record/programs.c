@@ -53,8 +53,7 @@ static bool is_grey(cs_v4 t) { return t[0] == t[1] && t[1] == t[2]; }
 static celspan_status add_step(program_maker *m, planefile_step step) {
   cs_recording *record = m->record;
   m->is_hard |= m->lost_glass && (step.kind == PLANEFILE_FLAT || step.kind == PLANEFILE_RAMP);
-  return CS_APPEND(m->source->context, record->steps, record->step_count, record->step_capacity,
-                   step);
+  return CS_ARRAY_APPEND(m->source->context, record->steps, record->step_count, step);
 }
 
 /* Adds a layer of one colour; if the layer in front of it has one colour too, the two are
@@ -307,8 +306,8 @@ static celspan_status move(program_maker *m, uint32_t layer) {
 
 static celspan_status add_stop(program_maker *m, double at, planefile_cell colour) {
   cs_recording *record = m->record;
-  return CS_APPEND(m->source->context, record->stops, record->stop_count, record->stop_capacity,
-                   ((planefile_stop){at, colour}));
+  return CS_ARRAY_APPEND(m->source->context, record->stops, record->stop_count,
+                         ((planefile_stop){at, colour}));
 }
 
 /* Adds a ramp over the stops that were added from `stop` on. */
@@ -600,11 +599,9 @@ static celspan_status make_weighted(const cs_record_source *source, const cs_pro
   const planefile_step enter = {.kind = PLANEFILE_ENTER};
   const planefile_step leave = {.kind = PLANEFILE_LEAVE,
                                 .colour = {{factor, factor, factor, factor}}};
-  CS_TRY(
-      CS_APPEND(source->context, record->steps, record->step_count, record->step_capacity, enter));
+  CS_TRY(CS_ARRAY_APPEND(source->context, record->steps, record->step_count, enter));
   CS_TRY(make_program(source, program, record));
-  return CS_APPEND(source->context, record->steps, record->step_count, record->step_capacity,
-                   leave);
+  return CS_ARRAY_APPEND(source->context, record->steps, record->step_count, leave);
 }
 
 celspan_status cs_record_program(const cs_record_source *source, const cs_program *program,

@@ -24,16 +24,8 @@ typedef struct recorder {
 } recorder;
 
 void cs_record_finish(cs_recording *record, cs_memory *memory) {
-  cs_mem_free(memory, record->points, record->point_capacity * sizeof *record->points);
-  cs_mem_free(memory, record->pieces, record->piece_capacity * sizeof *record->pieces);
-  cs_mem_free(memory, record->chains, record->chain_capacity * sizeof *record->chains);
-  cs_mem_free(memory, record->borders, record->border_capacity * sizeof *record->borders);
-  cs_mem_free(memory, record->cells, record->cell_capacity * sizeof *record->cells);
-  cs_mem_free(memory, record->programs, record->program_capacity * sizeof *record->programs);
-  cs_mem_free(memory, record->steps, record->step_capacity * sizeof *record->steps);
-  cs_mem_free(memory, record->axes, record->axis_capacity * sizeof *record->axes);
-  cs_mem_free(memory, record->stops, record->stop_capacity * sizeof *record->stops);
-  cs_record_pictures_finish(record, memory);
+  cs_record_pictures_finish(record);
+  CS_ARRAYS_FREE(memory, record, points, sources);
   *record = (cs_recording){0};
 }
 
@@ -77,9 +69,8 @@ static celspan_status add_cell(recorder *r, cs_hash key, planefile_cell cell,
                                planefile_program program, uint32_t *out) {
   cs_recording *record = r->out;
   *out = (uint32_t)record->cell_count;
-  CS_TRY(CS_APPEND(r->context, record->programs, record->program_count, record->program_capacity,
-                   program));
-  CS_TRY(CS_APPEND(r->context, record->cells, record->cell_count, record->cell_capacity, cell));
+  CS_TRY(CS_ARRAY_APPEND(r->context, record->programs, record->program_count, program));
+  CS_TRY(CS_ARRAY_APPEND(r->context, record->cells, record->cell_count, cell));
   return cs_hash_table_add(&r->cells, r->context, key, *out);
 }
 
@@ -212,9 +203,9 @@ static celspan_status reserve(recorder *r, size_t pieces) {
   if (out->point_count > COUNT_MOST || out->border_count > COUNT_MOST ||
       out->cell_count > COUNT_MOST || out->step_count > COUNT_MOST || out->stop_count > COUNT_MOST)
     return cs_fail(r->context, CELSPAN_LIMIT, "plane: there is too much in it");
-  CS_TRY(CS_RESERVE(r->context, out->points, out->point_capacity, out->point_count + 4 * pieces));
-  CS_TRY(CS_RESERVE(r->context, out->pieces, out->piece_capacity, out->piece_count + pieces));
-  return CS_RESERVE(r->context, out->chains, out->chain_capacity, out->chain_count + 1);
+  CS_TRY(CS_ARRAY_RESERVE(r->context, out->points, out->point_count + 4 * pieces));
+  CS_TRY(CS_ARRAY_RESERVE(r->context, out->pieces, out->piece_count + pieces));
+  return CS_ARRAY_RESERVE(r->context, out->chains, out->chain_count + 1);
 }
 
 static celspan_status add_chain(recorder *r, const cs_boundary_chain *chain, uint32_t *out) {
@@ -289,9 +280,9 @@ static celspan_status add_border(recorder *r, const cs_events_part *part) {
   find_limits(record, border.chain, &least, &most);
   border.top = (int32_t)cs_number_clamp(height_of(r, part->top), least, most);
   border.foot = (int32_t)cs_number_clamp(height_of(r, part->foot), least, most);
-  return border.top >= border.foot ? CELSPAN_OK
-                                   : CS_APPEND(r->context, record->borders, record->border_count,
-                                               record->border_capacity, border);
+  return border.top >= border.foot
+             ? CELSPAN_OK
+             : CS_ARRAY_APPEND(r->context, record->borders, record->border_count, border);
 }
 
 /* Adds the visible borders; the two sides of a bundle are always the same cell. */
@@ -317,8 +308,8 @@ static void add_to_sum(const recorder *r, uint32_t cell) {
 celspan_status cs_record_begin_sum(celspan_context *context, cs_recording *out) {
   const planefile_program none = {0, 0};
   const planefile_cell clear = {{0}};
-  CS_TRY(CS_APPEND(context, out->programs, out->program_count, out->program_capacity, none));
-  return CS_APPEND(context, out->cells, out->cell_count, out->cell_capacity, clear);
+  CS_TRY(CS_ARRAY_APPEND(context, out->programs, out->program_count, none));
+  return CS_ARRAY_APPEND(context, out->cells, out->cell_count, clear);
 }
 
 /* The number of all layers that may have an axis. */

@@ -26,25 +26,18 @@ typedef struct cs_record_picture cs_record_picture; /* the source of its pixels:
 
 typedef struct cs_recording {
   planefile_grid grid; /* the grid of all places */
-  planefile_point *points;
-  planefile_piece *pieces;
-  planefile_chain *chains;
-  planefile_border *borders;
-  planefile_cell *cells;
-  planefile_program *programs; /* the programs of the cells */
-  planefile_step *steps;
-  planefile_axis *axes;
-  planefile_stop *stops;
-  planefile_picture *pictures;
-  cs_record_picture *sources; /* the sources of the pictures */
-  celspan_status status;      /* the status of reading pixels: the first failure */
-  size_t point_count, point_capacity;
-  size_t piece_count, piece_capacity;
-  size_t chain_count, chain_capacity;
-  size_t border_count, border_capacity;
-  size_t cell_count, cell_capacity, program_count, program_capacity;
-  size_t step_count, step_capacity;
-  size_t axis_count, axis_capacity;
-  size_t stop_count, stop_capacity;
-  size_t picture_count, picture_capacity, source_capacity;
+  CS_ARRAY(planefile_point, points);
+  CS_ARRAY(planefile_piece, pieces);
+  CS_ARRAY(planefile_chain, chains);
+  CS_ARRAY(planefile_border, borders);
+  CS_ARRAY(planefile_cell, cells);
+  CS_ARRAY(planefile_program, programs); /* the programs of the cells */
+  CS_ARRAY(planefile_step, steps);
+  CS_ARRAY(planefile_axis, axes);
+  CS_ARRAY(planefile_stop, stops);
+  CS_ARRAY(planefile_picture, pictures);
+  CS_ARRAY(cs_record_picture, sources); /* the sources of the pictures */
+  celspan_status status;                /* the status of reading pixels: the first failure */
+  size_t point_count, piece_count, chain_count, border_count, cell_count, program_count, step_count;
+  size_t axis_count, stop_count, picture_count;
 } cs_recording;

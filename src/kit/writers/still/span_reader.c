@@ -20,12 +20,9 @@ struct cs_span_reader {
   spanfile_reader *reader;
   spanfile_info info;
   float light[256]; /* the light of an 8-bit sRGB code */
-  celspan_span *spans;
-  size_t span_capacity;
-  float *colours; /* the colours of the row's arrays */
-  size_t colour_capacity;
-  unsigned char *pixels; /* the pixels of one array, as in the file */
-  size_t pixel_capacity;
+  CS_ARRAY(celspan_span, spans);
+  CS_ARRAY(float, colours);        /* the colours of the row's arrays */
+  CS_ARRAY(unsigned char, pixels); /* the pixels of one array, as in the file */
   char path[];
 };
 
@@ -112,9 +109,7 @@ void cs_span_reader_close(cs_span_reader *file) {
   spanfile_reader_destroy(file->reader);
   if (file->descriptor >= 0)
     close(file->descriptor);
-  cs_mem_free(memory, file->spans, file->span_capacity * sizeof *file->spans);
-  cs_mem_free(memory, file->colours, file->colour_capacity * sizeof *file->colours);
-  cs_mem_free(memory, file->pixels, file->pixel_capacity);
+  CS_ARRAYS_FREE(memory, file, spans, pixels);
   cs_mem_free(memory, file, file->allocated);
 }
 
@@ -187,9 +182,9 @@ static celspan_status make_room(cs_span_reader *file, const row_range *range) {
   }
   celspan_context *context = file->context;
   size_t pixel_size = spanfile_pixel_size(file->info.format);
-  CS_TRY(CS_RESERVE(context, file->spans, file->span_capacity, spans));
-  CS_TRY(CS_RESERVE(context, file->colours, file->colour_capacity, 4 * arrays));
-  return CS_RESERVE(context, file->pixels, file->pixel_capacity, longest * pixel_size);
+  CS_TRY(CS_ARRAY_RESERVE(context, file->spans, spans));
+  CS_TRY(CS_ARRAY_RESERVE(context, file->colours, 4 * arrays));
+  return CS_ARRAY_RESERVE(context, file->pixels, longest * pixel_size);
 }
 
 /* Writes the array's colours. The span is passed as a row by itself, so that only it is decoded. */

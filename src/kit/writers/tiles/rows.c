@@ -110,12 +110,9 @@ typedef struct cs_tile_writer {
   celspan_context context; /* a branch */
   const cs_tile_rows *rows;
   cs_tile_output *output;
-  size_t *starts; /* for each row: the first span that overlaps the tile */
-  size_t start_capacity;
-  celspan_span *spans; /* one row, cut to the tile */
-  size_t span_capacity;
-  unsigned char *pixels; /* one row */
-  size_t pixel_capacity;
+  CS_ARRAY(size_t, starts);        /* for each row: the first span that overlaps the tile */
+  CS_ARRAY(celspan_span, spans);   /* one row, cut to the tile */
+  CS_ARRAY(unsigned char, pixels); /* one row */
 } cs_tile_writer;
 
 static void init_writer(cs_tile_writer *writer, const cs_tile_rows *rows) {
@@ -124,15 +121,12 @@ static void init_writer(cs_tile_writer *writer, const cs_tile_rows *rows) {
 }
 
 static void finish_writer(cs_tile_writer *writer) {
-  cs_memory *memory = writer->context.memory;
-  cs_mem_free(memory, writer->starts, writer->start_capacity * sizeof *writer->starts);
-  cs_mem_free(memory, writer->spans, writer->span_capacity * sizeof *writer->spans);
-  cs_mem_free(memory, writer->pixels, writer->pixel_capacity);
+  CS_ARRAYS_FREE(writer->context.memory, writer, starts, pixels);
 }
 
 /* Called before a thread writes tiles of a row from left to right. rows: pixels. */
 static celspan_status begin_writer(cs_tile_writer *writer, int32_t rows) {
-  CS_TRY(CS_RESERVE(&writer->context, writer->starts, writer->start_capacity, (size_t)rows));
+  CS_TRY(CS_ARRAY_RESERVE(&writer->context, writer->starts, (size_t)rows));
   memset(writer->starts, 0, (size_t)rows * sizeof *writer->starts);
   return CELSPAN_OK;
 }
@@ -158,7 +152,7 @@ static celspan_status cut_row(cs_tile_writer *writer, const cs_pyramid_box *box,
   size_t end = *start;
   while (end < row.count && row.spans[end].x0 < x1)
     end++;
-  CS_TRY(CS_RESERVE(&writer->context, writer->spans, writer->span_capacity, end - *start));
+  CS_TRY(CS_ARRAY_RESERVE(&writer->context, writer->spans, end - *start));
   for (size_t i = *start; i < end; i++)
     writer->spans[kept++] = cut_span(row.spans[i], x0, x1);
   *out_count = kept;
@@ -186,7 +180,7 @@ static celspan_status read_content(cs_tile_writer *writer, const cs_pyramid_box 
   const celspan_coding *coding = &output->coding;
   size_t pixel_size = cs_pixels_size(coding);
   size_t size = (size_t)(box->x1 - box->x0) * pixel_size, count;
-  CS_TRY(CS_RESERVE(&writer->context, writer->pixels, writer->pixel_capacity, size));
+  CS_TRY(CS_ARRAY_RESERVE(&writer->context, writer->pixels, size));
   cs_hash hash = cs_hash_begin((uint64_t)(box->x1 - box->x0));
   *out = (tile_content){.is_plain = output->skips_empty || output->is_sparse};
   for (int32_t y = box->y0; y < box->y1; y++) {

@@ -221,9 +221,9 @@ celspan_status cs_svg_item_compose(celspan_context *context, cs_svg_item *item) 
 typedef struct listing {
   celspan_context *context;
   cs_hash_table names; /* to places in the list */
-  cs_svg_part *parts;
-  bool *is_shared; /* more than one item has this label */
-  size_t count, capacity, shared_capacity;
+  CS_ARRAY(cs_svg_part, parts);
+  CS_ARRAY(bool, is_shared); /* more than one item has this label */
+  size_t count;
   celspan_space space;
 } listing;
 
@@ -253,8 +253,8 @@ static celspan_status list_part(listing *list, const char *text, const cs_svg_it
     list->is_shared[place] = list->is_shared[place] || is_label;
     return CELSPAN_OK;
   }
-  CS_TRY(CS_RESERVE(list->context, list->parts, list->capacity, list->count + 1));
-  CS_TRY(CS_RESERVE(list->context, list->is_shared, list->shared_capacity, list->count + 1));
+  CS_TRY(CS_ARRAY_RESERVE(list->context, list->parts, list->count + 1));
+  CS_TRY(CS_ARRAY_RESERVE(list->context, list->is_shared, list->count + 1));
   CS_TRY(cs_hash_table_add(&list->names, list->context, hash_name(text), list->count));
   list->is_shared[list->count] = false;
   list->parts[list->count] = (cs_svg_part){text, is_label, NULL};
@@ -298,8 +298,7 @@ static celspan_status make_parts(celspan_context *context, celspan_svg *art) {
   for (size_t i = 0; i < list.count; i++)
     celspan_object_unref(list.parts[i].object);
   cs_hash_table_finish(&list.names, context);
-  cs_mem_free(context->memory, list.parts, list.capacity * sizeof *list.parts);
-  cs_mem_free(context->memory, list.is_shared, list.shared_capacity * sizeof *list.is_shared);
+  CS_ARRAYS_FREE(context->memory, &list, parts, is_shared);
   return status;
 }
 

@@ -18,8 +18,7 @@ static void finish_step(const cs_svg_step *step) {
 
 celspan_status cs_svg_recipe_append(celspan_context *context, cs_svg_recipe *recipe,
                                     const cs_svg_step *step) {
-  celspan_status status =
-      CS_APPEND(context, recipe->steps, recipe->step_count, recipe->step_capacity, *step);
+  celspan_status status = CS_ARRAY_APPEND(context, recipe->steps, recipe->step_count, *step);
   if (status != CELSPAN_OK)
     finish_step(step);
   return status;
@@ -35,8 +34,7 @@ static void drop(cs_svg_recipe *recipe) {
   for (size_t i = 0; i < recipe->step_count; i++)
     finish_step(&recipe->steps[i]);
   cs_memory *memory = recipe->memory;
-  cs_mem_free(memory, recipe->steps, recipe->step_capacity * sizeof *recipe->steps);
-  cs_mem_free(memory, recipe->inputs, recipe->input_capacity * sizeof *recipe->inputs);
+  CS_ARRAYS_FREE(memory, recipe, steps, inputs);
   cs_mem_free(memory, recipe, sizeof *recipe);
   cs_memory_unref(memory);
 }

@@ -73,11 +73,10 @@ typedef struct cs_svg_recipe {
   cs_memory *memory;
   celspan_space space; /* the space of the drawing: for the element itself, and for images */
   celspan_box region;  /* the element is cut off outside of it */
-  celspan_matrix matrix, back; /* from user units to the drawing's, and back */
-  cs_svg_step *steps;          /* none: nothing is drawn */
-  size_t step_count, step_capacity;
-  size_t *inputs; /* for all steps: the numbers of sources and steps, as in the figure */
-  size_t input_count, input_capacity;
+  celspan_matrix matrix, back;  /* from user units to the drawing's, and back */
+  CS_ARRAY(cs_svg_step, steps); /* none: nothing is drawn */
+  CS_ARRAY(size_t, inputs); /* for all steps: the numbers of sources and steps, as in the figure */
+  size_t step_count, input_count;
 } cs_svg_recipe;
 
 /* A recipe without steps. *out: new. Errors: NO_MEMORY. */

@@ -81,9 +81,9 @@ static celspan_status append_character(cs_svg_written *w, const char *bytes, siz
     w->is_too_long = true;
     return CELSPAN_OK;
   }
-  CS_TRY(CS_RESERVE(context, w->bytes, w->byte_capacity, w->size + size));
-  CS_TRY(CS_APPEND(context, w->characters, w->count, w->capacity,
-                   (cs_svg_character){(uint32_t)w->size, NAN, NAN, NAN, NAN, NAN}));
+  CS_TRY(CS_ARRAY_RESERVE(context, w->bytes, w->size + size));
+  CS_TRY(CS_ARRAY_APPEND(context, w->characters, w->count,
+                         (cs_svg_character){(uint32_t)w->size, NAN, NAN, NAN, NAN, NAN}));
   memcpy(w->bytes + w->size, bytes, size);
   w->size += size;
   return CELSPAN_OK;
@@ -125,8 +125,8 @@ static celspan_status add_text_node(cs_svg_written *w, const cs_svg_node *node,
   CS_TRY(add_characters(w, node->text, place->style.text.is_preserved));
   if (w->count == begin)
     return CELSPAN_OK;
-  return CS_APPEND(w->reading->context, w->nodes, w->node_count, w->node_capacity,
-                   (cs_svg_text_node){node, *place, begin, w->count});
+  return CS_ARRAY_APPEND(w->reading->context, w->nodes, w->node_count,
+                         (cs_svg_text_node){node, *place, begin, w->count});
 }
 
 /* ---------------------------------------------------------------- what is said of them */
@@ -330,7 +330,5 @@ void cs_svg_written_finish(cs_svg_written *w) {
   cs_memory *memory = w->reading->context->memory;
   for (size_t i = 0; i < w->path_count; i++)
     cs_svg_text_path_finish(&w->paths[i], memory);
-  cs_mem_free(memory, w->bytes, w->byte_capacity);
-  cs_mem_free(memory, w->characters, w->capacity * sizeof *w->characters);
-  cs_mem_free(memory, w->nodes, w->node_capacity * sizeof *w->nodes);
+  CS_ARRAYS_FREE(memory, w, bytes, nodes);
 }

@@ -66,12 +66,10 @@ typedef struct cs_svg_text_length {
 
 typedef struct cs_svg_written {
   cs_svg_reading *reading;
-  char *bytes; /* UTF-8 */
-  size_t size, byte_capacity;
-  cs_svg_character *characters;
-  size_t count, capacity;
-  cs_svg_text_node *nodes; /* none is empty */
-  size_t node_count, node_capacity;
+  CS_ARRAY(char, bytes); /* UTF-8 */
+  CS_ARRAY(cs_svg_character, characters);
+  CS_ARRAY(cs_svg_text_node, nodes); /* none is empty */
+  size_t size, count, node_count;
   cs_svg_text_length lengths[CS_SVG_TEXT_LENGTHS]; /* lengths of inner elements come first */
   size_t length_count;
   cs_svg_text_path paths[CS_SVG_TEXT_PATHS]; /* ascending, without overlap; none is empty */

@@ -68,7 +68,7 @@ static celspan_status fill_run(cs_svg_reading *reading, const cs_svg_written *wr
 static celspan_status add_run(cs_svg_reading *reading, const cs_svg_written *written, size_t first,
                               size_t end, cs_svg_letters *out) {
   const cs_svg_text_node *nodes = written->nodes;
-  CS_TRY(CS_RESERVE(reading->context, out->runs, out->run_capacity, out->run_count + 1));
+  CS_TRY(CS_ARRAY_RESERVE(reading->context, out->runs, out->run_count + 1));
   cs_svg_run *run = &out->runs[out->run_count++];
   *run = (cs_svg_run){.begin = nodes[first].begin,
                       .end = nodes[end - 1].end,
@@ -135,12 +135,9 @@ static celspan_status make_room(const cs_svg_written *written, cs_svg_letters *o
   size_t count = 0;
   for (size_t i = 0; i < out->run_count; i++)
     count += out->runs[i].layout.letter_count;
-  out->letters = cs_mem_array(out->context->memory, count, sizeof *out->letters);
-  out->capacity = count;
-  out->order = cs_mem_array(out->context->memory, written->count, sizeof *out->order);
   out->order_count = written->count;
-  bool is_made = (out->letters || count == 0) && (out->order || written->count == 0);
-  return is_made ? CELSPAN_OK : cs_fail_memory(out->context);
+  CS_TRY(CS_ARRAY_MAKE(out->context, out->letters, count));
+  return CS_ARRAY_MAKE(out->context, out->order, written->count);
 }
 
 /* Puts the letters side by side on a line that begins at 0, run after run; from the right if the
@@ -355,12 +352,9 @@ celspan_status cs_svg_letters_make(cs_svg_reading *reading, const cs_svg_node *n
 }
 
 void cs_svg_letters_finish(cs_svg_letters *letters) {
-  cs_memory *memory = letters->context->memory;
   for (size_t i = 0; i < letters->run_count; i++)
     cs_typeset_finish(&letters->runs[i].layout);
-  cs_mem_free(memory, letters->runs, letters->run_capacity * sizeof *letters->runs);
-  cs_mem_free(memory, letters->letters, letters->capacity * sizeof *letters->letters);
-  cs_mem_free(memory, letters->order, letters->order_count * sizeof *letters->order);
+  CS_ARRAYS_FREE(letters->context->memory, letters, runs, order);
 }
 
 /* The angle by which a letter is turned, in degrees. */

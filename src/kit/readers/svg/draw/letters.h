@@ -39,12 +39,10 @@ typedef struct cs_svg_run {
 
 typedef struct cs_svg_letters {
   celspan_context *context;
-  cs_svg_run *runs;
-  size_t run_count, run_capacity;
-  cs_svg_letter *letters; /* in the order on the page, from left to right */
-  size_t count, capacity;
-  uint32_t *order; /* by character: the letter that begins with it, from 1; 0: none */
-  size_t order_count;
+  CS_ARRAY(cs_svg_run, runs);
+  CS_ARRAY(cs_svg_letter, letters); /* in the order on the page, from left to right */
+  CS_ARRAY(uint32_t, order); /* by character: the letter that begins with it, from 1; 0: none */
+  size_t run_count, count, order_count;
 } cs_svg_letters;
 
 /* Notes parts that cannot be drawn. node: the text element. *out must be finished, also after a

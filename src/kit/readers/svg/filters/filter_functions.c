@@ -100,7 +100,7 @@ celspan_status cs_svg_filter_function_make(const cs_svg_reading *reading,
   celspan_context *context = reading->context;
   step.space = reading->is_coded ? CELSPAN_SPACE_AROUND : CELSPAN_SPACE_SRGB;
   recipe->region = everywhere;
-  CS_TRY(CS_APPEND(context, recipe->inputs, recipe->input_count, recipe->input_capacity, 0));
+  CS_TRY(CS_ARRAY_APPEND(context, recipe->inputs, recipe->input_count, 0));
   CS_TRY(read_step(reading, call, place, &step));
   return cs_svg_recipe_append(context, recipe, &step);
 }

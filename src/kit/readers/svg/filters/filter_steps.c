@@ -18,8 +18,7 @@
 static celspan_status add_input(cs_svg_filter *f, size_t number) {
   cs_svg_recipe *recipe = f->recipe;
   f->step.input_count++;
-  return CS_APPEND(f->reading->context, recipe->inputs, recipe->input_count, recipe->input_capacity,
-                   number);
+  return CS_ARRAY_APPEND(f->reading->context, recipe->inputs, recipe->input_count, number);
 }
 
 size_t cs_svg_filter_last(const cs_svg_filter *f) {

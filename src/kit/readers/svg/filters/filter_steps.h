@@ -24,10 +24,10 @@ typedef struct cs_svg_filter {
   celspan_box box;            /* the box of the element, in its user units */
   bool is_in_shares;          /* numbers are shares of that box */
   cs_svg_recipe *recipe;
-  cs_svg_named_result *names;
-  size_t name_count, name_capacity;
-  uint32_t *uses; /* for each source, and then for each step: how often both sources are in it */
-  size_t use_count, use_capacity;
+  CS_ARRAY(cs_svg_named_result, names);
+  /* for each source, and then for each step: how often both sources are in it */
+  CS_ARRAY(uint32_t, uses);
+  size_t name_count, use_count;
   uint32_t weight; /* how often the element is in the last result; at first: in the source */
   const cs_svg_node *node;
   cs_svg_style style;

@@ -12,7 +12,7 @@
 /* Both sources contain the element as often as the filters before this one have put it there. */
 static celspan_status start_uses(cs_svg_filter *f) {
   for (size_t i = 0; i < CS_SVG_SOURCES; i++)
-    CS_TRY(CS_APPEND(f->reading->context, f->uses, f->use_count, f->use_capacity, f->weight));
+    CS_TRY(CS_ARRAY_APPEND(f->reading->context, f->uses, f->use_count, f->weight));
   return CELSPAN_OK;
 }
 
@@ -27,7 +27,7 @@ static celspan_status count_uses(cs_svg_filter *f) {
   if (uses > CS_SVG_RECIPE_USES)
     f->reason = REPEATS;
   f->weight = uses;
-  return CS_APPEND(f->reading->context, f->uses, f->use_count, f->use_capacity, uses);
+  return CS_ARRAY_APPEND(f->reading->context, f->uses, f->use_count, uses);
 }
 
 static celspan_status read_step(cs_svg_filter *f, cs_svg_step_reader *read) {
@@ -44,8 +44,8 @@ static celspan_status read_step(cs_svg_filter *f, cs_svg_step_reader *read) {
     status = count_uses(f);
   CS_TRY(cs_svg_recipe_append(f->reading->context, f->recipe, &f->step));
   if (status == CELSPAN_OK && name && *name)
-    status = CS_APPEND(f->reading->context, f->names, f->name_count, f->name_capacity,
-                       (cs_svg_named_result){name, cs_svg_filter_last(f)});
+    status = CS_ARRAY_APPEND(f->reading->context, f->names, f->name_count,
+                             (cs_svg_named_result){name, cs_svg_filter_last(f)});
   return status;
 }
 
@@ -107,8 +107,7 @@ static celspan_status make_recipe(cs_svg_filter *f, const cs_svg_filter_call *ca
   celspan_status status = f->owner ? make_steps(f) : make_function(f, call);
   if (status == CELSPAN_OK && f->reason)
     status = note(f, call);
-  cs_mem_free(memory, f->names, f->name_capacity * sizeof *f->names);
-  cs_mem_free(memory, f->uses, f->use_capacity * sizeof *f->uses);
+  CS_ARRAYS_FREE(memory, f, names, uses);
   return status;
 }
 

@@ -333,7 +333,7 @@ static celspan_status add_rule(parser *p, cs_css_rule *rule) {
   if (sheet->count >= CS_CSS_RULES)
     return cs_fail(p->place->context, CELSPAN_LIMIT, "the style sheets have more than %d rules",
                    CS_CSS_RULES);
-  CS_TRY(CS_RESERVE(p->place->context, sheet->rules, sheet->capacity, sheet->count + 1));
+  CS_TRY(CS_ARRAY_RESERVE(p->place->context, sheet->rules, sheet->count + 1));
   rule->order = (uint32_t)sheet->count;
   sheet->rules[sheet->count++] = *rule;
   return CELSPAN_OK;
@@ -450,8 +450,7 @@ static celspan_status parse_keyframes(parser *p, const char *name, const char **
   if (!frames.name)
     return CELSPAN_NO_MEMORY;
   CS_TRY(parse_frames(p, brace + 1, *text - ((*text)[-1] == '}'), &frames));
-  return CS_APPEND(p->place->context, p->sheet->frames, p->sheet->frames_count,
-                   p->sheet->frames_capacity, frames);
+  return CS_ARRAY_APPEND(p->place->context, p->sheet->frames, p->sheet->frames_count, frames);
 }
 
 /* ---------------------------------------------------------------- the whole sheet */
@@ -502,7 +501,6 @@ celspan_status cs_css_sheet_parse(const cs_css_place *place, const char *text, c
 }
 
 void cs_css_sheet_finish(cs_css_sheet *sheet, celspan_context *context) {
-  cs_mem_free(context->memory, sheet->rules, sheet->capacity * sizeof *sheet->rules);
-  cs_mem_free(context->memory, sheet->frames, sheet->frames_capacity * sizeof *sheet->frames);
+  CS_ARRAYS_FREE(context->memory, sheet, rules, frames);
   *sheet = (cs_css_sheet){0};
 }

@@ -10,6 +10,7 @@
  */
 #pragma once
 
+#include "inside/context.h"
 #include "readers/svg/words/names.h"
 
 #define CS_CSS_RULES 65536
@@ -83,11 +84,10 @@ typedef struct cs_css_frames {
 } cs_css_frames;
 
 typedef struct cs_css_sheet {
-  cs_css_rule *rules; /* in ascending order of weight: later ones win */
-  size_t count, capacity;
+  CS_ARRAY(cs_css_rule, rules);    /* in ascending order of weight: later ones win */
+  CS_ARRAY(cs_css_frames, frames); /* a later one replaces one of the same name */
+  size_t count, frames_count;
   bool omitted;
-  cs_css_frames *frames; /* a later one replaces one of the same name */
-  size_t frames_count, frames_capacity;
   bool has_geometry; /* in one of the rules */
   bool has_motion;   /* there are rules with names of animations */
 } cs_css_sheet;
