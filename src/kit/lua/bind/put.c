@@ -23,6 +23,15 @@ void cs_push_numbers(lua_State *L, const double *numbers, size_t count) {
   }
 }
 
+void cs_read_numbers(lua_State *L, int index, int count, double *out) {
+  luaL_checktype(L, index, LUA_TTABLE);
+  for (int i = 0; i < count; i++) {
+    lua_rawgeti(L, index, i + 1);
+    out[i] = luaL_checknumber(L, -1);
+    lua_pop(L, 1);
+  }
+}
+
 void cs_put_numbers(lua_State *L, const char *name, const double *numbers, size_t count) {
   cs_push_numbers(L, numbers, count);
   lua_setfield(L, -2, name);

@@ -1,4 +1,4 @@
-/* Fields of the table on top of the stack, and lists of numbers. */
+/* Fields of the table on top of the stack, and lists of numbers, also read. */
 #pragma once
 
 #include <lauxlib.h>
@@ -15,3 +15,5 @@ void cs_put_text(lua_State *L, const char *name, const char *text);
 
 /* Pushes a list. */
 void cs_push_numbers(lua_State *L, const double *numbers, size_t count);
+/* Reads `count` numbers of the table that the argument at index must be. */
+void cs_read_numbers(lua_State *L, int index, int count, double *out);

@@ -37,23 +37,13 @@ static celspan_texture *texture_at(lua_State *L, int index) {
   return value->handle;
 }
 
-/* `count` numbers of the table at index. */
-static void read_numbers(lua_State *L, int index, int count, double *out) {
-  luaL_checktype(L, index, LUA_TTABLE);
-  for (int i = 0; i < count; i++) {
-    lua_rawgeti(L, index, i + 1);
-    out[i] = luaL_checknumber(L, -1);
-    lua_pop(L, 1);
-  }
-}
-
 static celspan_light_field field_at(lua_State *L, int index) {
   celspan_light_field field = CELSPAN_ZERO;
-  read_numbers(L, index, 3, field.colour);
+  cs_read_numbers(L, index, 3, field.colour);
   if (lua_getfield(L, index, "terms") == LUA_TTABLE)
     for (int c = 0; c < 3; c++) {
       lua_rawgeti(L, -1, c + 1);
-      read_numbers(L, lua_gettop(L), CELSPAN_LIGHT_FIELD_TERMS, field.terms[c]);
+      cs_read_numbers(L, lua_gettop(L), CELSPAN_LIGHT_FIELD_TERMS, field.terms[c]);
       lua_pop(L, 1);
     }
   lua_pop(L, 1);
@@ -91,9 +81,9 @@ int cs_relight_estimate(lua_State *L) {
   double patch[4] = {0, 0, 0, 0};
   desc.picture = texture_at(L, 1);
   desc.clue = (celspan_light_clue)luaL_checkinteger(L, 2);
-  read_numbers(L, 3, 3, desc.colour);
+  cs_read_numbers(L, 3, 3, desc.colour);
   if (!lua_isnoneornil(L, 4))
-    read_numbers(L, 4, 4, patch);
+    cs_read_numbers(L, 4, 4, patch);
   desc.patch = (celspan_box){patch[0], patch[1], patch[2], patch[3]};
   desc.is_uneven = lua_toboolean(L, 5);
   desc.blank = lua_isnoneornil(L, 6) ? NULL : texture_at(L, 6);
@@ -135,7 +125,7 @@ int cs_relight_exposures(lua_State *L) {
 static celspan_relight_ground ground_at(lua_State *L, int index) {
   celspan_relight_ground ground = {.picture = texture_at(L, index)};
   if (lua_istable(L, index + 1))
-    read_numbers(L, index + 1, 3, ground.colour);
+    cs_read_numbers(L, index + 1, 3, ground.colour);
   else
     ground.ground = texture_at(L, index + 1);
   return ground;

@@ -8,6 +8,7 @@
 #include "lua/bind/form.h"
 #include "lua/bind/host.h"
 #include "lua/bind/list.h"
+#include "lua/bind/put.h"
 #include "lua/bind/userdata.h"
 #include "lua/module/native.h"
 #include "lua/nouns/pixel_string.h"
@@ -23,15 +24,6 @@ static cs_rough *page_at(lua_State *L, int index) {
   cs_rough **holder = luaL_checkudata(L, index, PAGE);
   luaL_argcheck(L, *holder, index, "is closed");
   return *holder;
-}
-
-static void read_numbers(lua_State *L, int index, int count, double *out) {
-  luaL_checktype(L, index, LUA_TTABLE);
-  for (int i = 0; i < count; i++) {
-    lua_rawgeti(L, index, i + 1);
-    out[i] = luaL_checknumber(L, -1);
-    lua_pop(L, 1);
-  }
 }
 
 static int push_numbers(lua_State *L, const double *numbers, int count) {
@@ -77,7 +69,7 @@ int cs_scanning_pegs(lua_State *L) {
   for (size_t i = 0; i < count; i++) {
     double hole[4];
     lua_rawgeti(L, 3, (lua_Integer)i + 1);
-    read_numbers(L, lua_gettop(L), 4, hole);
+    cs_read_numbers(L, lua_gettop(L), 4, hole);
     holes[i] = (cs_hole){hole[0], hole[1], hole[2], hole[3]};
     lua_pop(L, 1);
   }
@@ -107,7 +99,7 @@ int cs_scanning_shift(lua_State *L) {
 static cs_inks_desc read_desc(lua_State *L) {
   cs_inks_desc desc = {.dust = (uint32_t)luaL_checkinteger(L, 4)};
   double place[7];
-  read_numbers(L, 2, 7, place);
+  cs_read_numbers(L, 2, 7, place);
   desc.place = (cs_layer_place){place[0], place[1],          place[2],         place[3],
                                 place[4], (int32_t)place[5], (int32_t)place[6]};
   luaL_checktype(L, 3, LUA_TTABLE);
