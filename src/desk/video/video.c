@@ -99,9 +99,8 @@ static celspan_status open_picture(cs_video *video, const cs_video_desc *desc) {
                                                .primaries = options->primaries,
                                                .transfer = options->transfer}};
   CS_TRY(reserve(video, desc));
-  video->pixels = cs_mem_array(video->context->memory, (size_t)desc->frames.height, video->stride);
-  if (!video->pixels)
-    return cs_fail_memory(video->context);
+  CS_TRY(cs_mem_make(video->context, (void **)&video->pixels, (size_t)desc->frames.height,
+                     video->stride));
   return cs_picture_file_open(video->context, &output, &video->picture);
 }
 

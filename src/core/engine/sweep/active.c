@@ -69,9 +69,8 @@ static void *carve(unsigned char **at, const void *old, size_t old_count, size_t
 static celspan_status grow(celspan_context *context, cs_active *active) {
   cs_active_store *store = &active->store;
   size_t old = store->capacity, wanted = old ? 2 * old : 64;
-  void *storage = cs_mem_array(context->memory, 1, storage_size(active, wanted));
-  if (!storage)
-    return cs_fail_memory(context);
+  void *storage;
+  CS_TRY(cs_mem_make(context, &storage, 1, storage_size(active, wanted)));
   unsigned char *at = cs_wide_align(storage);
 #define CARVE(array) array = carve(&at, array, old, wanted, sizeof *(array));
   EACH_ARRAY(CARVE)

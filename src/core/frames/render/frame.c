@@ -181,13 +181,10 @@ static celspan_status set_rostrums(celspan_context *context, const celspan_frame
 
 static celspan_status set_exposures(celspan_context *context, const celspan_frame_desc *desc,
                                     cs_frame *frame) {
-  size_t count = frame->capacity = desc->exposure_count;
-  frame->plans = cs_mem_array(context->memory, count, sizeof *frame->plans);
-  frame->maps = cs_mem_array(context->memory, count, sizeof *frame->maps);
-  frame->weights = cs_mem_array(context->memory, count, sizeof *frame->weights);
-  frame->rostrums = cs_mem_array(context->memory, count, sizeof *frame->rostrums);
-  if (count > 0 && (!frame->plans || !frame->maps || !frame->weights || !frame->rostrums))
-    return cs_fail_memory(context);
+  CS_TRY(CS_ARRAY_MAKE(context, frame->plans, desc->exposure_count));
+  CS_TRY(CS_ARRAY_MAKE(context, frame->maps, desc->exposure_count));
+  CS_TRY(CS_ARRAY_MAKE(context, frame->weights, desc->exposure_count));
+  CS_TRY(CS_ARRAY_MAKE(context, frame->rostrums, desc->exposure_count));
   frame->repeats = desc->repeats;
   frame->has_antialias = desc->has_antialias;
   if (desc->has_antialias)
@@ -251,10 +248,7 @@ void cs_frame_free(cs_frame *frame, cs_memory *memory) {
     cs_drawings_finish(&frame->maps[i], memory);
   for (size_t i = 0; i < frame->count; i++)
     celspan_rostrum_unref(frame->rostrums[i]);
-  cs_mem_free(memory, frame->maps, frame->capacity * sizeof *frame->maps);
   cs_antialias_free(&frame->antialias, memory);
-  cs_mem_free(memory, frame->plans, frame->capacity * sizeof *frame->plans);
-  cs_mem_free(memory, frame->weights, frame->capacity * sizeof *frame->weights);
-  cs_mem_free(memory, frame->rostrums, frame->capacity * sizeof *frame->rostrums);
+  CS_ARRAYS_FREE(memory, frame, plans, rostrums);
   *frame = (cs_frame){0};
 }

@@ -18,12 +18,13 @@
 #define CS_FRAME_BAND 16 /* rows that are held together (held.h), a multiple of CS_MAP_ROWS */
 
 typedef struct cs_frame {
-  cs_plan *plans; /* one for each exposure of weight > 0; empty where the frame is crowded, or the
-                     exposure is drawn from maps */
-  cs_map_frame *maps; /* one for each exposure; empty where the exposure has a plan */
-  float *weights;
-  celspan_rostrum **rostrums; /* as cs_rostrum_shown: references */
-  size_t count, capacity;
+  /* one for each exposure of weight > 0; empty where the frame is crowded, or the exposure is drawn
+   * from maps */
+  CS_ARRAY(cs_plan, plans);
+  CS_ARRAY(cs_map_frame, maps); /* one for each exposure; empty where the exposure has a plan */
+  CS_ARRAY(float, weights);
+  CS_ARRAY(celspan_rostrum *, rostrums); /* as cs_rostrum_shown: references */
+  size_t count;
   cs_view view;       /* the view of the rows asked for, with all their columns */
   bool repeats;       /* see celspan_frame_desc */
   bool has_antialias; /* the same for all exposures; otherwise each exposure has its own */

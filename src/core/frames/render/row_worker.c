@@ -40,14 +40,11 @@ celspan_status cs_row_worker_init(cs_row_worker *worker, celspan_context *contex
   cs_context_branch(&worker->context, context);
   cs_row_init(&worker->sum);
   cs_row_init(&worker->joined);
-  worker->makers = cs_mem_array(context->memory, frame->count, sizeof *worker->makers);
-  worker->map_makers = cs_mem_array(context->memory, frame->count, sizeof *worker->map_makers);
-  worker->rows = cs_mem_array(context->memory, frame->count, sizeof *worker->rows);
+  CS_TRY(CS_ARRAY_MAKE(&worker->context, worker->makers, frame->count));
+  CS_TRY(CS_ARRAY_MAKE(&worker->context, worker->map_makers, frame->count));
+  CS_TRY(CS_ARRAY_MAKE(&worker->context, worker->rows, frame->count));
   if (frame->is_crowded)
-    worker->plans = cs_mem_array(context->memory, frame->count, sizeof *worker->plans);
-  if (frame->count > 0 && (!worker->makers || !worker->map_makers || !worker->rows ||
-                           (frame->is_crowded && !worker->plans)))
-    return cs_fail_memory(&worker->context);
+    CS_TRY(CS_ARRAY_MAKE(&worker->context, worker->plans, frame->count));
   bool takes_codes = frame->takes_codes && frame->count == 1 && frame->weights[0] == 1;
   worker->joined.takes_codes = takes_codes;
   for (size_t i = 0; i < frame->count; i++) {
@@ -72,10 +69,7 @@ void cs_row_worker_finish(cs_row_worker *worker) {
   cs_row_finish(&worker->sum, memory);
   cs_row_finish(&worker->joined, memory);
   cs_held_copy_finish(&worker->held, memory);
-  cs_mem_free(memory, worker->makers, count * sizeof *worker->makers);
-  cs_mem_free(memory, worker->map_makers, count * sizeof *worker->map_makers);
-  cs_mem_free(memory, worker->rows, count * sizeof *worker->rows);
-  cs_mem_free(memory, worker->plans, count * sizeof *worker->plans);
+  CS_ARRAYS_FREE(memory, worker, makers, plans);
   *worker = (cs_row_worker){0};
 }
 

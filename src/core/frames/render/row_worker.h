@@ -27,13 +27,13 @@
 typedef struct cs_row_worker {
   celspan_context context; /* branched from the frame's context */
   const cs_frame *frame;
-  cs_row_maker *makers;     /* one for each exposure that has a plan */
-  cs_map_maker *map_makers; /* one for each exposure that is drawn from maps */
-  cs_row *rows;             /* one for each exposure */
+  CS_ARRAY(cs_row_maker, makers);     /* one for each exposure that has a plan */
+  CS_ARRAY(cs_map_maker, map_makers); /* one for each exposure that is drawn from maps */
+  CS_ARRAY(cs_row, rows);             /* one for each exposure */
+  CS_ARRAY(cs_plan, plans);           /* the plans of the current pane of a crowded frame */
   cs_row sum;
   cs_held_copy held;
   /* of a crowded frame */
-  cs_plan *plans;       /* the plans of the current pane */
   cs_view pane;         /* the current pane; without rows where there is none */
   cs_row joined;        /* the row that was made of several panes */
   uint64_t evaluations; /* the evaluations of earlier panes */

@@ -44,9 +44,9 @@ typedef struct strips {
   cs_pipeline *pipeline;
   bool has_shares;
   cs_shares shares;
-  cs_row_worker *row_workers; /* one for each worker */
-  void **share_workers;       /* the sink's own data for each worker, where there are shares */
-  strip *ring;                /* strip i lies at i % ring_size */
+  CS_ARRAY(cs_row_worker, row_workers); /* one for each worker */
+  CS_ARRAY(strip, ring);                /* strip i lies at i % ring_size */
+  void **share_workers; /* the sink's own data for each worker, where there are shares */
   int worker_count, ring_size;
   int32_t strip_height;
   int32_t total; /* strips of the frame */
@@ -260,11 +260,8 @@ static celspan_status open_shares(strips *s) {
 }
 
 static celspan_status open_strips(strips *s) {
-  cs_memory *memory = s->context->memory;
-  s->row_workers = cs_mem_array(memory, (size_t)s->worker_count, sizeof *s->row_workers);
-  s->ring = cs_mem_array(memory, (size_t)s->ring_size, sizeof *s->ring);
-  if (!s->row_workers || !s->ring)
-    return cs_fail_memory(s->context);
+  CS_TRY(CS_ARRAY_MAKE(s->context, s->row_workers, (size_t)s->worker_count));
+  CS_TRY(CS_ARRAY_MAKE(s->context, s->ring, (size_t)s->ring_size));
   return s->has_shares ? open_shares(s) : CELSPAN_OK;
 }
 
@@ -275,8 +272,7 @@ static void close_strips(strips *s) {
     cs_row_worker_finish(&s->row_workers[i]);
   for (int i = 0; s->ring && i < s->ring_size; i++)
     cs_row_queue_finish(&s->ring[i].rows, memory);
-  cs_mem_free(memory, s->row_workers, (size_t)s->worker_count * sizeof *s->row_workers);
-  cs_mem_free(memory, s->ring, (size_t)s->ring_size * sizeof *s->ring);
+  CS_ARRAYS_FREE(memory, s, row_workers, ring);
 }
 
 static uint64_t sum_evaluations(const cs_row_worker *row_workers, int count) {

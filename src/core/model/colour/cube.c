@@ -205,9 +205,8 @@ static celspan_status read_text(celspan_context *context, const char *file, char
 
 static celspan_status read_cube(celspan_context *context, const char *file, size_t size,
                                 cs_cube *cube) {
-  char *text = cs_mem_array(context->memory, size + 1, 1);
-  if (!text)
-    return cs_fail_memory(context);
+  char *text;
+  CS_TRY(CS_MAKE(context, text, size + 1));
   reader r = {.context = context, .file = file, .text = text, .end = text + size, .cube = cube};
   celspan_status status = read_text(context, file, text, size);
   if (status == CELSPAN_OK)

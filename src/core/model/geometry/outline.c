@@ -94,9 +94,8 @@ static size_t packed_size(const cs_outline *outline) {
 /* The wider items come first, so that each is aligned. */
 celspan_status cs_outline_pack(celspan_context *context, const cs_outline *outline,
                                cs_outline **out) {
-  cs_outline *packed = cs_mem_array(context->memory, 1, packed_size(outline));
-  if (!packed)
-    return cs_fail_memory(context);
+  cs_outline *packed;
+  CS_TRY(cs_mem_make(context, (void **)&packed, 1, packed_size(outline)));
   *packed = (cs_outline){.points = (cs_hpoint *)(packed + 1),
                          .point_count = outline->point_count,
                          .piece_count = outline->piece_count,

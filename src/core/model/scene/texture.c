@@ -29,9 +29,8 @@ cs_texture_variation *cs_texture_own(celspan_texture *texture) {
 
 celspan_status cs_texture_create_kind(celspan_context *context, cs_texture_kind kind,
                                       celspan_texture **out) {
-  celspan_texture *texture = cs_mem_array(context->memory, 1, size_of(kind));
-  if (!texture)
-    return cs_fail_memory(context);
+  celspan_texture *texture;
+  CS_TRY(cs_mem_make(context, (void **)&texture, 1, size_of(kind)));
   texture->variation = kind == CS_TEXTURE_FLAT ? &no_variation : &((varying *)texture)->variation;
   atomic_init(&texture->references, 1);
   texture->memory = cs_memory_ref(context->memory);

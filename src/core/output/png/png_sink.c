@@ -152,9 +152,8 @@ celspan_status cs_sink_png(celspan_context *context, const char *path,
   size_t path_size = strlen(path) + 1, title = file->title ? strlen(file->title) : 0;
   size_t title_size = title > 0 ? sizeof title_head + title : 0;
   size_t size = sizeof(png_sink) + title_size + path_size;
-  png_sink *sink = cs_mem_array(context->memory, 1, size);
-  if (!sink)
-    return cs_fail_memory(context);
+  png_sink *sink;
+  CS_TRY(cs_mem_make(context, (void **)&sink, 1, size));
   sink->allocated = size;
   sink->coding = coding;
   sink->is_opaque = file->is_opaque;

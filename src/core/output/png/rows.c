@@ -376,9 +376,8 @@ static celspan_status reserve_bytes(const cs_png_rows *rows, celspan_context *co
                                     cs_png_row *row) {
   if (row->bytes)
     return CELSPAN_OK;
-  unsigned char *bytes = cs_mem_array(context->memory, bytes_allocated(rows), 1);
-  if (!bytes)
-    return cs_fail_memory(context);
+  unsigned char *bytes;
+  CS_TRY(CS_MAKE(context, bytes, bytes_allocated(rows)));
   row->bytes = bytes + rows->pixel_size;
   return CELSPAN_OK;
 }

@@ -45,9 +45,7 @@ static size_t row_size(const coder_sink *sink) {
 static celspan_status begin(void *user, celspan_context *context, int32_t width, int32_t height) {
   coder_sink *sink = user;
   sink->width = width;
-  sink->row = cs_mem_array(context->memory, 1, row_size(sink));
-  if (!sink->row)
-    return cs_fail_memory(context);
+  CS_TRY(cs_mem_make(context, (void **)&sink->row, 1, row_size(sink)));
   return sink->inner.begin(sink->inner.user, context, width, height);
 }
 
@@ -125,9 +123,7 @@ static celspan_status open_worker(void *user, celspan_context *context, void **m
   CS_TRY(CS_MAKE(context, worker, 1));
   *made = worker;
   worker->sink = sink;
-  worker->row = cs_mem_array(context->memory, 1, row_size(sink));
-  if (!worker->row)
-    return cs_fail_memory(context);
+  CS_TRY(cs_mem_make(context, (void **)&worker->row, 1, row_size(sink)));
   return sink->shares.open_worker
              ? sink->shares.open_worker(sink->shares.user, context, &worker->inner)
              : CELSPAN_OK;

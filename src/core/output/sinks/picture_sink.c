@@ -244,10 +244,9 @@ static celspan_status begin(void *user, celspan_context *context, int32_t width,
   sink->height = height;
   size_t fitting = BATCH_BYTES / row_size(sink);
   sink->batch_rows = fitting < 1 ? 1 : fitting > BATCH_ROWS ? BATCH_ROWS : (int32_t)fitting;
-  sink->pixels = cs_mem_array(context->memory, (size_t)width, cs_pixels_size(&sink->coding));
-  sink->batch = cs_mem_array(context->memory, (size_t)sink->batch_rows, row_size(sink));
-  if (!sink->pixels || !sink->batch)
-    return cs_fail_memory(context);
+  CS_TRY(
+      cs_mem_make(context, (void **)&sink->pixels, (size_t)width, cs_pixels_size(&sink->coding)));
+  CS_TRY(cs_mem_make(context, (void **)&sink->batch, (size_t)sink->batch_rows, row_size(sink)));
   return open_file(sink, context);
 }
 

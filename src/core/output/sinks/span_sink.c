@@ -165,9 +165,8 @@ celspan_status cs_sink_span(celspan_context *context, const char *path,
                    "linear light, premultiplied; for others use PNG, EXR or TIFF",
                    path);
   size_t path_size = strlen(path) + 1;
-  span_sink *sink = cs_mem_array(context->memory, 1, sizeof *sink + path_size);
-  if (!sink)
-    return cs_fail_memory(context);
+  span_sink *sink;
+  CS_TRY(cs_mem_make(context, (void **)&sink, 1, sizeof *sink + path_size));
   sink->allocated = sizeof *sink + path_size;
   sink->coding = coding;
   sink->strip = cs_strip_of(file);

@@ -157,9 +157,7 @@ static celspan_status begin(void *user, celspan_context *context, int32_t width,
                    sink->path, (int)width, (int)whole, CS_TGA_SIDE_MOST);
   CS_TRY(cs_strip_check(context, sink->path, sink->strip, height));
   sink->width = width;
-  sink->row = cs_mem_array(context->memory, (size_t)width, WORST_PIXEL);
-  if (!sink->row)
-    return cs_fail_memory(context);
+  CS_TRY(cs_mem_make(context, (void **)&sink->row, (size_t)width, WORST_PIXEL));
   CS_TRY(cs_file_create(context, NULL, sink->path, &sink->file));
   return put_header(sink, context, height);
 }
@@ -198,9 +196,8 @@ celspan_status cs_sink_tga(celspan_context *context, const char *path,
   const char *title = file->title ? file->title : "";
   size_t path_size = strlen(path) + 1, title_size = strlen(title) + 1;
   size_t size = sizeof(tga_sink) + path_size + title_size;
-  tga_sink *sink = cs_mem_array(context->memory, 1, size);
-  if (!sink)
-    return cs_fail_memory(context);
+  tga_sink *sink;
+  CS_TRY(cs_mem_make(context, (void **)&sink, 1, size));
   sink->allocated = size;
   sink->coding = coding;
   sink->strip = cs_strip_of(file);

@@ -55,9 +55,8 @@ static celspan_status mix_stem(cs_script *script, int64_t first, int64_t moments
   cs_heard track;
   celspan_context *context = script->context;
   CS_TRY(cs_soundtrack_read(script, &track));
-  cs_mix_sound *sounds = cs_mem_array(context->memory, track.count, sizeof *sounds);
-  if (!sounds)
-    return cs_fail_memory(context);
+  cs_mix_sound *sounds;
+  CS_TRY(CS_MAKE(context, sounds, track.count));
   memcpy(sounds, track.sounds, track.count * sizeof *sounds);
   for (size_t i = 0; i < track.count; i++)
     if (strcmp(sounds[i].stem, stem) != 0)

@@ -11,10 +11,9 @@ CS_DESCRIBE(celspan_text_desc, font_count, .size = 48, .leading = 1.2)
 
 struct celspan_glyphs {
   cs_memory *memory;
-  char *text; /* a copy, to which the glyphs point */
-  size_t text_size;
-  celspan_glyph *glyphs;
-  size_t count, capacity;
+  CS_ARRAY(celspan_glyph, glyphs);
+  CS_ARRAY(char, text); /* a copy, to which the glyphs point */
+  size_t count;
 };
 
 /* ---------------------------------------------------------------- outlines */
@@ -169,19 +168,12 @@ static celspan_status create_glyphs(celspan_context *context, const celspan_text
   celspan_glyphs *glyphs;
   CS_TRY(CS_MAKE(context, glyphs, 1));
   glyphs->memory = cs_memory_ref(context->memory);
-  glyphs->capacity = capacity;
-  glyphs->text_size = desc->text_size;
-  glyphs->glyphs = cs_mem_array(context->memory, capacity, sizeof *glyphs->glyphs);
-  glyphs->text = cs_mem_array(context->memory, desc->text_size, 1);
-  bool is_made = (glyphs->glyphs || capacity == 0) && (glyphs->text || desc->text_size == 0);
-  if (!is_made) {
-    celspan_glyphs_destroy(glyphs);
-    return cs_fail_memory(context);
-  }
-  if (desc->text_size > 0)
+  celspan_status status = CS_ARRAY_MAKE(context, glyphs->glyphs, capacity);
+  if (status == CELSPAN_OK)
+    status = CS_ARRAY_MAKE(context, glyphs->text, desc->text_size);
+  if (status == CELSPAN_OK && desc->text_size > 0)
     memcpy(glyphs->text, desc->text, desc->text_size);
-  *out = glyphs;
-  return CELSPAN_OK;
+  return CS_GIVE(status, glyphs, celspan_glyphs_destroy, out);
 }
 
 static celspan_status make_glyphs(cs_layout *layout, celspan_glyphs **out) {
@@ -214,8 +206,7 @@ void celspan_glyphs_destroy(celspan_glyphs *glyphs) {
   cs_memory *memory = glyphs->memory;
   for (size_t i = 0; i < glyphs->count; i++)
     celspan_object_unref(glyphs->glyphs[i].object);
-  cs_mem_free(memory, glyphs->glyphs, glyphs->capacity * sizeof *glyphs->glyphs);
-  cs_mem_free(memory, glyphs->text, glyphs->text_size);
+  CS_ARRAYS_FREE(memory, glyphs, glyphs, text);
   cs_mem_free(memory, glyphs, sizeof *glyphs);
   cs_memory_unref(memory);
 }

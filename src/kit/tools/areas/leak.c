@@ -19,8 +19,9 @@ CS_SORT_DEFINE(sort_steps, step, is_before)
 
 typedef struct search {
   const cs_ink_areas *areas;
-  uint32_t *squared, *parents; /* by place */
-  step *steps;
+  CS_ARRAY(uint32_t, squared); /* by place, as `parents` */
+  CS_ARRAY(uint32_t, parents);
+  CS_ARRAY(step, steps);
   uint32_t label;
 } search;
 
@@ -32,6 +33,9 @@ static bool is_rim(const cs_ink_areas *a, uint32_t place) {
 static celspan_status measure(search *s) {
   const cs_ink_areas *a = s->areas;
   const size_t size = cs_ink_areas_size(a);
+  CS_TRY(CS_ARRAY_MAKE(a->context, s->squared, size));
+  CS_TRY(CS_ARRAY_MAKE(a->context, s->parents, size));
+  CS_TRY(CS_ARRAY_MAKE(a->context, s->steps, size));
   celspan_status status =
       cs_nearest_find(a->context, a->walls, CS_WALL_INK, a->width, a->height, s->squared);
   for (uint32_t i = 0; status == CELSPAN_OK && i < size; i++) {
@@ -126,18 +130,10 @@ static void run(search *s, uint32_t from, uint32_t to, cs_ink_leak *out) {
 
 celspan_status cs_ink_areas_leak(const cs_ink_areas *areas, uint32_t from, uint32_t to,
                                  cs_ink_leak *out) {
-  cs_memory *memory = areas->context->memory;
-  const size_t size = cs_ink_areas_size(areas);
   search s = {.areas = areas, .label = areas->labels[from]};
-  s.squared = cs_mem_array(memory, size, sizeof *s.squared);
-  s.parents = cs_mem_array(memory, size, sizeof *s.parents);
-  s.steps = cs_mem_array(memory, size, sizeof *s.steps);
-  celspan_status status =
-      s.squared && s.parents && s.steps ? measure(&s) : cs_fail_memory(areas->context);
+  celspan_status status = measure(&s);
   if (status == CELSPAN_OK)
     run(&s, from, to, out);
-  cs_mem_free(memory, s.squared, size * sizeof *s.squared);
-  cs_mem_free(memory, s.parents, size * sizeof *s.parents);
-  cs_mem_free(memory, s.steps, size * sizeof *s.steps);
+  CS_ARRAYS_FREE(areas->context->memory, &s, squared, steps);
   return status;
 }

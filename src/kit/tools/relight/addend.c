@@ -34,9 +34,8 @@ size_t cs_addend_bytes(const cs_addend *addend) {
 celspan_status cs_addend_budget_init(celspan_context *context, int32_t width, int32_t height,
                                      cs_addend_budget *out) {
   *out = (cs_addend_budget){(width + CS_ADDEND_PIECE - 1) / CS_ADDEND_PIECE, height, NULL};
-  out->spent =
-      cs_mem_array(context->memory, (size_t)out->pieces, (size_t)height * sizeof *out->spent);
-  return out->spent ? CELSPAN_OK : cs_fail_memory(context);
+  return cs_mem_make(context, (void **)&out->spent, (size_t)out->pieces,
+                     (size_t)height * sizeof *out->spent);
 }
 
 void cs_addend_budget_finish(cs_addend_budget *budget, cs_memory *memory) {

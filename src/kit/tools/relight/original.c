@@ -14,9 +14,8 @@ celspan_status cs_original_open_picture(celspan_context *context, const cs_pictu
                    "%s: %d x %d pixels are more than can be relit, %d in all; relight parts of it",
                    cs_picture_name(picture), info.width, info.height, CS_ORIGINAL_MOST);
   *out = (cs_original){.picture = picture, .info = info};
-  out->rows =
-      cs_mem_array(context->memory, (size_t)info.width * CS_ORIGINAL_ROWS, 4 * sizeof *out->rows);
-  return out->rows ? CELSPAN_OK : cs_fail_memory(context);
+  return cs_mem_make(context, (void **)&out->rows, (size_t)info.width * CS_ORIGINAL_ROWS,
+                     4 * sizeof *out->rows);
 }
 
 celspan_status cs_original_open(celspan_context *context, const char *noun,

@@ -43,9 +43,10 @@ typedef struct maker {
   const cs_regions *regions;
   const cs_borders *borders;
   const cs_curves *curves;
-  cs_way *first;       /* by region: its first way */
-  cs_way *next;        /* by way: another one around the same region */
-  unsigned char *used; /* by way: it is part of a path */
+  CS_ARRAY(cs_way, first);       /* by region: its first way */
+  CS_ARRAY(cs_way, next);        /* by way: another one around the same region */
+  CS_ARRAY(unsigned char, used); /* by way: it is part of a path */
+  CS_ARRAY(struct place, order); /* the regions that have a colour, the largest first */
 } maker;
 
 /* ---------------------------------------------------------------- ways around a region */
@@ -152,15 +153,19 @@ static inline bool is_before(const place *a, const place *b) {
 }
 CS_SORT_DEFINE(sort_places, place, is_before)
 
-static celspan_status add_shapes(const maker *m, place *order, celspan_trace *out) {
-  size_t count = 0;
+static celspan_status add_shapes(maker *m, celspan_trace *out) {
+  size_t count = 0, ways = 2 * m->borders->chain_count;
+  CS_TRY(CS_ARRAY_MAKE(m->context, m->first, m->regions->count));
+  CS_TRY(CS_ARRAY_MAKE(m->context, m->next, ways));
+  CS_TRY(CS_ARRAY_MAKE(m->context, m->used, ways));
+  CS_TRY(CS_ARRAY_MAKE(m->context, m->order, m->regions->count));
   list_ways(m);
   for (uint32_t i = 0; i < m->regions->count; i++)
     if (m->regions->list[i].label < m->material->colours->count)
-      order[count++] = (place){i, m->regions->list[i].area};
-  sort_places(order, count);
+      m->order[count++] = (place){i, m->regions->list[i].area};
+  sort_places(m->order, count);
   for (size_t i = 0; i < count; i++)
-    CS_TRY(add_shape(m, order[i].region, out));
+    CS_TRY(add_shape(m, m->order[i].region, out));
   return CELSPAN_OK;
 }
 
@@ -170,19 +175,13 @@ static CELSPAN_CHECKED celspan_status make_shapes(celspan_context *context,
                                                   const cs_regions *regions,
                                                   const cs_borders *borders,
                                                   const cs_curves *curves, celspan_trace *out) {
-  cs_memory *memory = context->memory;
-  size_t ways = 2 * borders->chain_count;
-  maker m = {context, material, regions, borders, curves, NULL, NULL, NULL};
-  m.first = cs_mem_array(memory, regions->count, sizeof *m.first);
-  m.next = cs_mem_array(memory, ways, sizeof *m.next);
-  m.used = cs_mem_array(memory, ways, 1);
-  place *order = cs_mem_array(memory, regions->count, sizeof *order);
-  celspan_status status =
-      m.first && m.next && m.used && order ? add_shapes(&m, order, out) : cs_fail_memory(context);
-  cs_mem_free(memory, m.first, regions->count * sizeof *m.first);
-  cs_mem_free(memory, m.next, ways * sizeof *m.next);
-  cs_mem_free(memory, m.used, ways);
-  cs_mem_free(memory, order, regions->count * sizeof *order);
+  maker m = {.context = context,
+             .material = material,
+             .regions = regions,
+             .borders = borders,
+             .curves = curves};
+  celspan_status status = add_shapes(&m, out);
+  CS_ARRAYS_FREE(context->memory, &m, first, order);
   return status;
 }
 

@@ -148,9 +148,7 @@ static celspan_status write_rows(exr_writing *w) {
 
 static celspan_status write_picture(exr_writing *w, const cs_exr_picture *picture) {
   w->memory_size = cs_exr_memory(picture);
-  w->memory = cs_mem_array(w->base.context->memory, w->memory_size, 1);
-  if (!w->memory)
-    return cs_fail_memory(w->base.context);
+  CS_TRY(cs_mem_make(w->base.context, (void **)&w->memory, w->memory_size, 1));
   CS_TRY(conclude(w, cs_exr_begin(&w->exr, picture, (cs_exr_target){put_bytes, w}, w->memory)));
   return write_rows(w);
 }

@@ -57,9 +57,7 @@ enum { ENTRY = 2 * CS_MARK_NAME + 16 };
 
 static celspan_status make_manifest(celspan_context *context, cs_cryptomatte *crypto) {
   crypto->manifest_size = crypto->mattes.count * ENTRY + 3;
-  crypto->manifest = cs_mem_array(context->memory, crypto->manifest_size, 1);
-  if (!crypto->manifest)
-    return cs_fail_memory(context);
+  CS_TRY(CS_MAKE(context, crypto->manifest, crypto->manifest_size));
   char *end = crypto->manifest;
   *end++ = '{';
   for (size_t i = 0; i < crypto->mattes.count; i++) {

@@ -10,8 +10,7 @@ celspan_status cs_sources_begin(celspan_context *context, const celspan_coding *
                       .coding = *coding,
                       .row = (size_t)width * cs_pixels_size(coding),
                       .count = count};
-  out->sources = cs_mem_array(context->memory, count ? count : 1, sizeof *out->sources);
-  return out->sources ? CELSPAN_OK : cs_fail_memory(context);
+  return CS_MAKE(context, out->sources, count ? count : 1);
 }
 
 /* A failure of one frame becomes the failure of all. */

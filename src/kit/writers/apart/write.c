@@ -70,9 +70,8 @@ celspan_status cs_apart_write(celspan_context *context, const cs_apart_format *f
                               cs_apart_contents contents, const celspan_frame_desc *desc,
                               const char *path, const celspan_file_desc *file) {
   CS_TRY(cs_frame_check(context, desc));
-  cs_apart_writing *writing = cs_mem_array(context->memory, 1, format->size);
-  if (!writing)
-    return cs_fail_memory(context);
+  cs_apart_writing *writing;
+  CS_TRY(cs_mem_make(context, (void **)&writing, 1, format->size));
   *writing = (cs_apart_writing){.context = context,
                                 .format = format,
                                 .contents = contents,

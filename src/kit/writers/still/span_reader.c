@@ -91,9 +91,8 @@ static celspan_status open_file(cs_span_reader *file) {
 celspan_status cs_span_reader_open(celspan_context *context, const char *path,
                                    cs_span_reader **out) {
   size_t size = sizeof(cs_span_reader) + strlen(path) + 1;
-  cs_span_reader *file = cs_mem_array(context->memory, 1, size);
-  if (!file)
-    return cs_fail_memory(context);
+  cs_span_reader *file;
+  CS_TRY(cs_mem_make(context, (void **)&file, 1, size));
   file->context = context;
   file->allocated = size;
   file->descriptor = -1;

@@ -32,9 +32,7 @@ static celspan_status begin_means(celspan_context *context, int32_t width, int32
                                  .transfer = CELSPAN_TRANSFER_LINEAR,
                                  .alpha = CELSPAN_ALPHA_PREMULTIPLIED};
   cs_tile_means made = {.width = width, .height = height};
-  made.pixels = cs_mem_array(context->memory, 1, pixels_size(&made));
-  if (!made.pixels)
-    return cs_fail_memory(context);
+  CS_TRY(cs_mem_make(context, (void **)&made.pixels, 1, pixels_size(&made)));
   celspan_status status =
       cs_sink_memory(context, &coding, made.pixels, (size_t)width * 4 * sizeof(float), sink);
   if (status == CELSPAN_OK)
