@@ -3,6 +3,7 @@
 #include <string.h>
 #include <time.h>
 
+#include "base/arrays.h"
 #include "base/thread_pool.h"
 
 enum { MOMENT = 100000000, SECOND = 1000000000 }; /* nanoseconds */
@@ -17,9 +18,9 @@ typedef struct slot {
 struct cs_pipeline {
   cs_memory *memory;
   cs_pipeline_desc desc;
-  slot *slots;
-  celspan_context *contexts; /* one for each thread */
-  cs_thread *threads;
+  CS_ARRAY(slot, slots);
+  CS_ARRAY(celspan_context, contexts); /* one for each thread */
+  CS_ARRAY(cs_thread, threads);
   int thread_count;        /* started */
   cs_account_kind account; /* the account of the owner */
   pthread_mutex_t lock;
@@ -195,12 +196,11 @@ static void init_locks(cs_pipeline *p) {
   pthread_condattr_destroy(&monotonic);
 }
 
-static bool allocate(cs_pipeline *p) {
+static celspan_status allocate(celspan_context *context, cs_pipeline *p) {
   size_t threads = (size_t)p->desc.threads;
-  p->slots = cs_mem_array(p->memory, p->desc.slots, sizeof *p->slots);
-  p->contexts = cs_mem_array(p->memory, threads, sizeof *p->contexts);
-  p->threads = cs_mem_array(p->memory, threads, sizeof *p->threads);
-  return p->slots && (threads == 0 || (p->contexts && p->threads));
+  CS_TRY(CS_ARRAY_MAKE(context, p->slots, p->desc.slots));
+  CS_TRY(CS_ARRAY_MAKE(context, p->contexts, threads));
+  return CS_ARRAY_MAKE(context, p->threads, threads);
 }
 
 celspan_status cs_pipeline_create(celspan_context *context, const cs_pipeline_desc *desc,
@@ -212,9 +212,10 @@ celspan_status cs_pipeline_create(celspan_context *context, const cs_pipeline_de
   p->desc = *desc;
   atomic_init(&p->end, desc->count);
   init_locks(p);
-  if (!allocate(p)) {
+  celspan_status status = allocate(context, p);
+  if (status != CELSPAN_OK) {
     cs_pipeline_destroy(p);
-    return cs_fail_memory(context);
+    return status;
   }
   for (int i = 0; i < desc->threads; i++)
     cs_context_branch(&p->contexts[i], context);
@@ -232,10 +233,7 @@ void cs_pipeline_destroy(cs_pipeline *p) {
   pthread_cond_broadcast(&p->added_some);
   pthread_mutex_unlock(&p->lock);
   cs_threads_join(p->threads, p->thread_count);
-  size_t threads = (size_t)p->desc.threads;
-  cs_mem_free(p->memory, p->slots, p->desc.slots * sizeof *p->slots);
-  cs_mem_free(p->memory, p->contexts, threads * sizeof *p->contexts);
-  cs_mem_free(p->memory, p->threads, threads * sizeof *p->threads);
+  CS_ARRAYS_FREE(p->memory, p, slots, threads);
   pthread_cond_destroy(&p->done_some);
   pthread_cond_destroy(&p->added_some);
   pthread_mutex_destroy(&p->lock);

@@ -36,7 +36,7 @@ celspan_status cs_remake_exposures(celspan_context *context, celspan_exposure *e
 /* ---------------------------------------------------------------- what was made */
 
 static celspan_status add_made(cs_made *m, celspan_object *object, const celspan_matrix *matrix) {
-  CS_TRY(CS_RESERVE(m->context, m->objects, m->capacity, m->count + 1));
+  CS_TRY(CS_ARRAY_RESERVE(m->context, m->objects, m->count + 1));
   CS_TRY(celspan_object_transform(m->context, object, matrix, &m->objects[m->count]));
   m->count++;
   m->is_any = true;
@@ -108,8 +108,6 @@ static celspan_status keep_made(void *user, const celspan_rostrum *from, size_t 
 
 celspan_status cs_made_keep(cs_made *m, celspan_exposure *exposures, size_t count) {
   celspan_status status = cs_remake_exposures(m->context, exposures, count, keep_made, m);
-  cs_mem_free(m->context->memory, m->objects, m->capacity * sizeof *m->objects);
-  m->objects = NULL;
-  m->capacity = 0;
+  CS_ARRAYS_FREE(m->context->memory, m, objects, objects);
   return status;
 }

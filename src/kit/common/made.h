@@ -24,9 +24,9 @@ typedef struct cs_made {
   bool (*is_made)(void *user, cs_mark mark);
   bool (*is_searched)(void *user, const celspan_rostrum *from, size_t i); /* a cel; NULL: all */
   void *user;
-  bool is_any;              /* the answer: something was made */
-  celspan_object **objects; /* of the cel that is searched, in their places; owned */
-  size_t count, capacity;
+  bool is_any;                         /* the answer: something was made */
+  CS_ARRAY(celspan_object *, objects); /* of the cel that is searched, in their places; owned */
+  size_t count;
 } cs_made;
 
 /* Leaves only the objects that is_made chooses, and all of the cels that it chooses, in white

@@ -240,10 +240,8 @@ celspan_status cs_held_begin(celspan_context *context, const celspan_frame_desc 
   CS_TRY(cs_context_service(context, &kind, &service));
   int32_t first = first_row / CS_FRAME_BAND;
   size_t count = (size_t)((end_row - 1) / CS_FRAME_BAND + 1 - first);
-  cs_held *held = cs_mem_resize(context->memory, NULL, 0, size_of(count));
-  if (!held)
-    return cs_fail_memory(context);
-  memset(held, 0, size_of(count));
+  cs_held *held;
+  CS_TRY(cs_mem_make(context, (void **)&held, 1, size_of(count)));
   frame->held = held;
   held->store = (store *)service;
   held->first_row = first_row;

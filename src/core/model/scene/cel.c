@@ -88,10 +88,8 @@ static celspan_status create(celspan_context *context, const celspan_cel *fields
   celspan_status status =
       cs_primitive_data_list_copy(context, "cel", "objects", objects, object_count, &copies);
   celspan_cel *cel = NULL;
-  if (status == CELSPAN_OK) {
-    cel = cs_mem_array(context->memory, 1, sizeof *cel);
-    status = cel ? CELSPAN_OK : cs_fail_memory(context);
-  }
+  if (status == CELSPAN_OK)
+    status = CS_MAKE(context, cel, 1);
   if (status != CELSPAN_OK) {
     if (copies)
       cs_primitive_data_list_free(context->memory, copies, object_count);

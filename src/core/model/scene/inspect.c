@@ -143,10 +143,7 @@ static void forget(cs_inspection *inspection) {
 
 void cs_inspection_finish(cs_inspection *inspection) {
   forget(inspection);
-  cs_mem_free(inspection->context->memory, inspection->outcomes,
-              inspection->capacity * sizeof *inspection->outcomes);
-  inspection->outcomes = NULL;
-  inspection->capacity = 0;
+  CS_ARRAYS_FREE(inspection->context->memory, inspection, outcomes, outcomes);
 }
 
 static bool copy_text(cs_memory *memory, const char *text, char **out) {
@@ -165,7 +162,7 @@ static celspan_status remember(cs_inspection *inspection, const cs_picture *pict
   cs_inspection_outcome outcome = {.status = status};
   if (inspection->count == CS_INSPECTION_MOST)
     forget(inspection);
-  CS_TRY(CS_RESERVE(context, inspection->outcomes, inspection->capacity, inspection->count + 1));
+  CS_TRY(CS_ARRAY_RESERVE(context, inspection->outcomes, inspection->count + 1));
   if (status != CELSPAN_OK &&
       !copy_text(context->memory, celspan_context_error(context), &outcome.message))
     return cs_fail_memory(context);

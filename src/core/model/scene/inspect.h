@@ -5,6 +5,7 @@
  */
 #pragma once
 
+#include "base/arrays.h"
 #include "base/hash_table.h"
 #include "base/mark.h"
 #include "model/pictures/picture.h"
@@ -35,8 +36,8 @@ typedef struct cs_inspection {
   bool (*progress)(void *user, int32_t rows_done, int32_t rows_total);
   void *user;
   cs_hash_table indices; /* from pictures to indices into outcomes */
-  cs_inspection_outcome *outcomes;
-  size_t count, capacity;
+  CS_ARRAY(cs_inspection_outcome, outcomes);
+  size_t count;
 } cs_inspection;
 
 /* OK when the picture can be read. Errors, with their sentence in the context: INPUT, LIMIT,

@@ -106,11 +106,7 @@ celspan_status cs_moving_open(const cs_picture_output *output, cs_moving **out,
     return cs_moving_fail(&(cs_moving){.output = *output}, failure, CELSPAN_NO_MEMORY,
                           "out of memory");
   celspan_status status = prepare(moving, output, failure);
-  if (status == CELSPAN_OK)
-    *out = moving;
-  else
-    cs_moving_abandon(moving);
-  return status;
+  return CS_GIVE(status, moving, cs_moving_abandon, out);
 }
 
 static celspan_status take(cs_moving *moving, cs_picture_failure *failure) {

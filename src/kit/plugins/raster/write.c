@@ -76,11 +76,7 @@ static celspan_status open_moving(const cs_picture_output *output, cs_picture_wr
   if (!writer)
     return cs_raster_fail(failure, CELSPAN_NO_MEMORY, "%s: out of memory", output->name);
   celspan_status status = cs_moving_open(output, &writer->moving, failure);
-  if (status == CELSPAN_OK)
-    *out = writer;
-  else
-    destroy(writer);
-  return status;
+  return CS_GIVE(status, writer, destroy, out);
 }
 
 celspan_status cs_write_open(const cs_picture_output *output, cs_picture_writer **out,

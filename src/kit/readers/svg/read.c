@@ -228,8 +228,7 @@ static celspan_status read_bytes(cs_svg_reading *reading, const char *bytes, siz
   else
     celspan_svg_unref(art);
   cs_svg_kept_images_finish(&reading->images, context);
-  cs_mem_free(context->memory, reading->skipped,
-              reading->skipped_capacity * sizeof *reading->skipped);
+  CS_ARRAYS_FREE(context->memory, reading, skipped, skipped);
   cs_svg_document_finish(&document, context);
   return status;
 }
@@ -239,7 +238,8 @@ static celspan_status read_inner(cs_svg_reading *outer, const cs_svg_source *sou
   cs_svg_reading inner = *outer;
   inner.source = source;
   inner.skipped = NULL;
-  inner.skipped_count = inner.skipped_capacity = 0;
+  inner.skipped_room = (cs_room){0};
+  inner.skipped_count = 0;
   inner.images = (cs_svg_kept_images){.count = 0};
   celspan_status status = read_bytes(&inner, bytes, size, out);
   outer->tests = inner.tests;

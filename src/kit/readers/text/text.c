@@ -150,9 +150,8 @@ static celspan_status add_glyph(cs_layout *layout, const cs_text_letter *letter,
 static celspan_status fill(cs_layout *layout, celspan_glyphs *glyphs) {
   if (layout->letter_count == 0)
     return CELSPAN_OK;
-  uint32_t *order = cs_mem_array(glyphs->memory, layout->count, sizeof *order);
-  if (!order)
-    return cs_fail_memory(layout->context);
+  uint32_t *order;
+  CS_TRY(CS_MAKE(layout->context, order, layout->count));
   end_letters(layout, order);
   celspan_status status = CELSPAN_OK;
   for (size_t at = 0; at < layout->count && status == CELSPAN_OK; at++)

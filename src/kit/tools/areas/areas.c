@@ -18,7 +18,7 @@ static celspan_status label_all(cs_ink_areas *a) {
         a->labels[(size_t)y * (size_t)a->width + (size_t)x] = regions.runs[i].region;
   a->count = regions.count;
   cs_regions_finish(&regions, a->context);
-  return CS_MAKE(a->context, a->boxes, a->count);
+  return CS_ARRAY_MAKE(a->context, a->boxes, a->count);
 }
 
 /* Gives walls the labels of the areas that are nearest to them. nearest: room for all places. */
@@ -59,9 +59,9 @@ static celspan_status divide(cs_ink_areas *a) {
 
 static celspan_status fill(cs_ink_areas *a, const unsigned char *coverage, double gap) {
   const size_t size = cs_ink_areas_size(a);
-  CS_TRY(CS_MAKE(a->context, a->coverage, size));
-  CS_TRY(CS_MAKE(a->context, a->walls, size));
-  CS_TRY(CS_MAKE(a->context, a->labels, size));
+  CS_TRY(CS_ARRAY_MAKE(a->context, a->coverage, size));
+  CS_TRY(CS_ARRAY_MAKE(a->context, a->walls, size));
+  CS_TRY(CS_ARRAY_MAKE(a->context, a->labels, size));
   memcpy(a->coverage, coverage, size);
   for (size_t i = 0; i < size; i++)
     a->walls[i] = coverage[i] >= 128 ? CS_WALL_INK : CS_WALL_NONE;
@@ -75,22 +75,14 @@ celspan_status cs_ink_areas_create(celspan_context *context, const unsigned char
   CS_TRY(CS_MAKE(context, areas, 1));
   *areas = (cs_ink_areas){.context = context, .width = width, .height = height};
   celspan_status status = fill(areas, coverage, gap);
-  if (status == CELSPAN_OK)
-    *out = areas;
-  else
-    cs_ink_areas_destroy(areas);
-  return status;
+  return CS_GIVE(status, areas, cs_ink_areas_destroy, out);
 }
 
 void cs_ink_areas_destroy(cs_ink_areas *areas) {
   if (!areas)
     return;
   cs_memory *memory = areas->context->memory;
-  const size_t size = cs_ink_areas_size(areas);
-  cs_mem_free(memory, areas->coverage, size);
-  cs_mem_free(memory, areas->walls, size);
-  cs_mem_free(memory, areas->labels, size * sizeof *areas->labels);
-  cs_mem_free(memory, areas->boxes, areas->count * sizeof *areas->boxes);
+  CS_ARRAYS_FREE(memory, areas, coverage, boxes);
   cs_mem_free(memory, areas, sizeof *areas);
 }
 

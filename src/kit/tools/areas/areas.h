@@ -26,9 +26,10 @@ typedef struct cs_ink_areas {
   celspan_context *context;
   int32_t width, height;
   double thin; /* the share of the ink's middles that is thinner than three pixels */
-  unsigned char *coverage, *walls;
-  uint32_t *labels;
-  cs_area_box *boxes;
+  CS_ARRAY(unsigned char, coverage);
+  CS_ARRAY(unsigned char, walls);
+  CS_ARRAY(uint32_t, labels);
+  CS_ARRAY(cs_area_box, boxes);
   size_t count; /* some labels may have no pixels */
 } cs_ink_areas;
 

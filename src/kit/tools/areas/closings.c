@@ -286,10 +286,9 @@ static celspan_status close_round(closer *c) {
 celspan_status cs_ink_areas_close(cs_ink_areas *areas, double gap) {
   const double most = areas->width + areas->height;
   closer c = {.areas = areas, .gap = gap < most ? gap : most};
-  cs_memory *memory = areas->context->memory;
   celspan_status status = find_ends(&c);
   for (int i = 0; status == CELSPAN_OK && gap > 0 && i < ROUNDS; i++)
     status = close_round(&c);
-  CS_ARRAYS_FREE(memory, &c, ends, list);
+  CS_ARRAYS_FREE(areas->context->memory, &c, ends, list);
   return status;
 }

@@ -103,8 +103,8 @@ static bool centre(const liner *l, cs_station *place, celspan_point along, doubl
 /* ---------------------------------------------------------------- one branch */
 
 typedef struct line {
-  cs_station *places;
-  unsigned char *is_told; /* by place: its width was measured */
+  CS_ARRAY(cs_station, places);
+  CS_ARRAY(unsigned char, is_told); /* by place: its width was measured */
   size_t count;
   bool is_closed;
   unsigned char label;
@@ -196,12 +196,9 @@ static void measure(const liner *l, line *n) {
 /* ---------------------------------------------------------------- strokes */
 
 static celspan_status set_points(const liner *l, const cs_spline *spline, cs_shape *shape) {
-  cs_memory *memory = l->context->memory;
-  shape->points = cs_mem_array(memory, spline->count, sizeof *shape->points);
-  shape->widths = cs_mem_array(memory, spline->count, sizeof *shape->widths);
   shape->point_count = spline->count;
-  if (!shape->points || !shape->widths)
-    return cs_fail_memory(l->context);
+  CS_TRY(CS_MAKE(l->context, shape->points, spline->count));
+  CS_TRY(CS_MAKE(l->context, shape->widths, spline->count));
   for (size_t i = 0; i < spline->count; i++) {
     const double *v = spline->controls[i].v;
     shape->points[i] =
@@ -256,12 +253,11 @@ static void set_places(const liner *l, const cs_branch *branch, line *n) {
 }
 
 static celspan_status add_branch(const liner *l, const cs_branch *branch) {
-  cs_memory *memory = l->context->memory;
   line n = {.count = branch->count, .is_closed = branch->is_closed};
   n.label = (unsigned char)((l->thin.plane[l->branches.places[branch->first]] & 127) - 1);
-  n.places = cs_mem_array(memory, n.count, sizeof *n.places);
-  n.is_told = cs_mem_array(memory, n.count, 1);
-  celspan_status status = n.places && n.is_told ? CELSPAN_OK : cs_fail_memory(l->context);
+  celspan_status status = CS_ARRAY_MAKE(l->context, n.places, n.count);
+  if (status == CELSPAN_OK)
+    status = CS_ARRAY_MAKE(l->context, n.is_told, n.count);
   if (status == CELSPAN_OK) {
     set_places(l, branch, &n);
     if (n.count == 1)
@@ -270,8 +266,7 @@ static celspan_status add_branch(const liner *l, const cs_branch *branch) {
       measure(l, &n);
     status = add_stroke(l, &n);
   }
-  cs_mem_free(memory, n.places, n.count * sizeof *n.places);
-  cs_mem_free(memory, n.is_told, n.count);
+  CS_ARRAYS_FREE(l->context->memory, &n, places, is_told);
   return status;
 }
 

@@ -60,8 +60,8 @@ typedef struct part {
   celspan_context *context;
   const cs_fit_rules *rules;
   cs_points points;
-  cs_cubic_station *stations; /* room, for each point */
-  size_t *ends;               /* the points at which pieces end; room for all points */
+  CS_ARRAY(cs_cubic_station, stations); /* room, for each point */
+  CS_ARRAY(size_t, ends);               /* the points at which pieces end; room for all points */
   size_t end_count;
   bool is_ring; /* both ends are the same joint, which is not a corner */
   cs_fit_pieces *out;
@@ -258,6 +258,8 @@ static celspan_status fit_shares(const part *p, double share, bool *fits) {
  * pieces are shortened to about the same length; if this does not fit, they keep their lengths. */
 static celspan_status fit_part(part *p) {
   size_t first = p->out->count, count;
+  CS_TRY(CS_ARRAY_MAKE(p->context, p->stations, p->points.count));
+  CS_TRY(CS_ARRAY_MAKE(p->context, p->ends, p->points.count));
   CS_TRY(fit_greedily(p));
   count = p->end_count;
   if (count < 2)
@@ -290,12 +292,8 @@ static celspan_status add_between(part *p, const cs_points *points, size_t from,
 static celspan_status run_part(part *p) {
   if (p->points.count < 3 || (!p->is_ring && is_straight(p)))
     return add_line(p->context, p->out, p->points.items[p->points.count - 1].at);
-  size_t room = p->points.count;
-  p->stations = cs_mem_array(p->context->memory, room, sizeof *p->stations);
-  p->ends = cs_mem_array(p->context->memory, room, sizeof *p->ends);
-  celspan_status status = p->stations && p->ends ? fit_part(p) : cs_fail_memory(p->context);
-  cs_mem_free(p->context->memory, p->stations, room * sizeof *p->stations);
-  cs_mem_free(p->context->memory, p->ends, room * sizeof *p->ends);
+  celspan_status status = fit_part(p);
+  CS_ARRAYS_FREE(p->context->memory, p, stations, ends);
   return status;
 }
 

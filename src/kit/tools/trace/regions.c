@@ -2,6 +2,8 @@
 
 #include <string.h>
 
+#include "inside/context.h"
+
 static size_t run_count(const cs_regions *regions) { return regions->rows[regions->height]; }
 
 /* ---------------------------------------------------------------- runs */
@@ -216,8 +218,9 @@ typedef struct sweeper {
   const cs_material *material;
   cs_regions regions;
   uint32_t most;
-  uint32_t *first, *next; /* a region's runs as a list: by region, by run */
-  int32_t *run_rows;      /* by run */
+  CS_ARRAY(uint32_t, first); /* a region's runs as a list: by region, and `next` by run */
+  CS_ARRAY(uint32_t, next);
+  CS_ARRAY(int32_t, run_rows); /* by run */
 } sweeper;
 
 static bool is_speckle(const sweeper *s, uint32_t region) {
@@ -272,34 +275,30 @@ static void relabel(const sweeper *s, uint32_t region, unsigned char label) {
 
 /* The new label of a speckle depends only on neighbours that are not speckles. These do not change
  * during a pass, so the order does not matter. */
-static bool drop_once(sweeper *s) {
-  bool has_changed = false;
+static celspan_status drop_once(celspan_context *context, sweeper *s, bool *has_changed) {
+  size_t runs = s->regions.rows[s->regions.height];
+  *has_changed = false;
+  CS_TRY(CS_ARRAY_MAKE(context, s->first, s->regions.count));
+  CS_TRY(CS_ARRAY_MAKE(context, s->next, runs));
+  CS_TRY(CS_ARRAY_MAKE(context, s->run_rows, runs));
   list_runs(s);
   for (uint32_t i = 0; i < s->regions.count; i++) {
     unsigned char label = is_speckle(s, i) ? neighbour(s, i) : s->regions.list[i].label;
     if (label == s->regions.list[i].label)
       continue;
     relabel(s, i, label);
-    has_changed = true;
+    *has_changed = true;
   }
-  return has_changed;
+  return CELSPAN_OK;
 }
 
 static celspan_status drop_round(celspan_context *context, sweeper *s, bool *has_changed) {
-  cs_memory *memory = context->memory;
   const cs_region_source source = cs_region_source_of(s->material, CS_CORNERS_JOIN);
   CS_TRY(cs_regions_make(context, &source, &s->regions));
-  size_t runs = s->regions.rows[s->regions.height], regions = s->regions.count;
-  s->first = cs_mem_array(memory, regions, sizeof *s->first);
-  s->next = cs_mem_array(memory, runs, sizeof *s->next);
-  s->run_rows = cs_mem_array(memory, runs, sizeof *s->run_rows);
-  bool is_made = s->first && s->next && s->run_rows;
-  *has_changed = is_made && drop_once(s);
-  cs_mem_free(memory, s->first, regions * sizeof *s->first);
-  cs_mem_free(memory, s->next, runs * sizeof *s->next);
-  cs_mem_free(memory, s->run_rows, runs * sizeof *s->run_rows);
+  celspan_status status = drop_once(context, s, has_changed);
+  CS_ARRAYS_FREE(context->memory, s, first, run_rows);
   cs_regions_finish(&s->regions, context);
-  return is_made ? CELSPAN_OK : cs_fail_memory(context);
+  return status;
 }
 
 celspan_status cs_speckles_drop(celspan_context *context, const cs_material *material,

@@ -141,8 +141,8 @@ typedef struct finder {
   double scale;  /* otherwise: the factor from the sum of squares to the cost */
   /* the greatest width of streets of arcs, and of lines, from each point on; with each gate they
    * become narrower */
-  double (*widths)[2];
-  way *ways; /* count + 1 */
+  CS_ARRAY(double[2], widths);
+  CS_ARRAY(way, ways); /* count + 1 */
 } finder;
 
 static void try(const finder *f, ptrdiff_t end, ptrdiff_t count, double own, bool is_line) {
@@ -293,6 +293,9 @@ static void find_ways(const finder *f) {
 }
 
 static celspan_status run(celspan_context *context, finder *f, cs_stretches *out) {
+  size_t size = (size_t)f->count + 1;
+  CS_TRY(CS_ARRAY_MAKE(context, f->ways, size));
+  CS_TRY(CS_ARRAY_MAKE(context, f->widths, f->is_exact ? size : 0));
   f->ways[0] = (way){.cost = 0};
   if (f->is_exact)
     find_ways_through(f);
@@ -304,22 +307,16 @@ static celspan_status run(celspan_context *context, finder *f, cs_stretches *out
 celspan_status cs_stretches_find(celspan_context *context, const cs_points *points, ptrdiff_t from,
                                  ptrdiff_t to, double noise, cs_stretches *out) {
   finder f = {.points = points, .from = from, .count = to - from, .scale = 0.5 / (noise * noise)};
-  size_t size = (size_t)f.count + 1;
-  f.ways = cs_mem_array(context->memory, size, sizeof *f.ways);
-  celspan_status status = f.ways ? run(context, &f, out) : cs_fail_memory(context);
-  cs_mem_free(context->memory, f.ways, size * sizeof *f.ways);
+  celspan_status status = run(context, &f, out);
+  CS_ARRAYS_FREE(context->memory, &f, widths, ways);
   return status;
 }
 
 celspan_status cs_stretches_thread(celspan_context *context, const cs_points *points,
                                    ptrdiff_t from, ptrdiff_t to, cs_stretches *out) {
   finder f = {.points = points, .from = from, .count = to - from, .is_exact = true};
-  size_t size = (size_t)f.count + 1;
-  f.ways = cs_mem_array(context->memory, size, sizeof *f.ways);
-  f.widths = cs_mem_array(context->memory, size, sizeof *f.widths);
-  celspan_status status = f.ways && f.widths ? run(context, &f, out) : cs_fail_memory(context);
-  cs_mem_free(context->memory, f.ways, size * sizeof *f.ways);
-  cs_mem_free(context->memory, f.widths, size * sizeof *f.widths);
+  celspan_status status = run(context, &f, out);
+  CS_ARRAYS_FREE(context->memory, &f, widths, ways);
   return status;
 }
 

@@ -185,15 +185,13 @@ celspan_status cs_thin_make(celspan_context *context, const cs_material *materia
                             unsigned char ground, cs_thin *out) {
   const cs_labels *labels = material->labels;
   *out = (cs_thin){.width = labels->width, .height = labels->height, .stride = labels->stride};
-  out->plane = cs_mem_array(context->memory, plane_size(out), 1);
-  out->depths = cs_mem_array(context->memory, plane_size(out), sizeof *out->depths);
-  celspan_status status = CELSPAN_OK;
-  if (out->plane && out->depths) {
+  celspan_status status = CS_ARRAY_MAKE(context, out->plane, plane_size(out));
+  if (status == CELSPAN_OK)
+    status = CS_ARRAY_MAKE(context, out->depths, plane_size(out));
+  if (status == CELSPAN_OK) {
     copy_labels(material, ground, out);
     measure_depths(out);
     status = thin_all(context, out);
-  } else {
-    status = cs_fail_memory(context);
   }
   if (status != CELSPAN_OK)
     cs_thin_finish(out, context);
@@ -201,9 +199,7 @@ celspan_status cs_thin_make(celspan_context *context, const cs_material *materia
 }
 
 void cs_thin_finish(cs_thin *thin, celspan_context *context) {
-  size_t size = plane_size(thin);
-  cs_mem_free(context->memory, thin->plane, size);
-  cs_mem_free(context->memory, thin->depths, size * sizeof *thin->depths);
+  CS_ARRAYS_FREE(context->memory, thin, plane, depths);
   *thin = (cs_thin){.plane = NULL};
 }
 

@@ -19,8 +19,9 @@
 typedef struct cs_thin {
   int32_t width, height;
   size_t stride;
-  unsigned char *plane;
-  uint16_t *depths; /* thirds of a pixel to the nearest pixel that is not drawn, before thinning */
+  CS_ARRAY(unsigned char, plane);
+  /* thirds of a pixel to the nearest pixel that is not drawn, before thinning */
+  CS_ARRAY(uint16_t, depths);
 } cs_thin;
 
 /* The neighbours of a pixel, clockwise from the one above, as offsets into the plane. */

@@ -273,9 +273,8 @@ celspan_status cs_mattes_make(celspan_context *context, const celspan_exposure *
 void cs_mattes_finish(cs_mattes *mattes) {
   if (!mattes->context)
     return;
-  cs_memory *memory = mattes->context->memory;
   for (size_t i = 0; i < mattes->step_count; i++)
     celspan_rostrum_unref(mattes->steps[i].exposure.rostrum);
-  CS_ARRAYS_FREE(memory, mattes, mattes, steps);
+  CS_ARRAYS_FREE(mattes->context->memory, mattes, mattes, steps);
   *mattes = (cs_mattes){0};
 }

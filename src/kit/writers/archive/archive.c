@@ -39,7 +39,7 @@ static void make_head(const cs_archive_member *member, unsigned char out[HEAD]) 
 
 celspan_status cs_archive_begin(cs_archive *archive, const char *name) {
   unsigned char head[HEAD];
-  CS_TRY(CS_RESERVE(archive->context, archive->members, archive->capacity, archive->count + 1));
+  CS_TRY(CS_ARRAY_RESERVE(archive->context, archive->members, archive->count + 1));
   cs_archive_member *member = &archive->members[archive->count++];
   *member = (cs_archive_member){.at = (uint32_t)cs_file_size(archive->file)};
   snprintf(member->name, sizeof member->name, "%s", name);
@@ -138,7 +138,5 @@ celspan_status cs_archive_complete(cs_archive *archive) {
 }
 
 void cs_archive_finish(cs_archive *archive) {
-  cs_mem_free(archive->context->memory, archive->members,
-              archive->capacity * sizeof *archive->members);
-  archive->members = NULL;
+  CS_ARRAYS_FREE(archive->context->memory, archive, members, members);
 }

@@ -10,6 +10,7 @@
  */
 #pragma once
 
+#include "inside/context.h"
 #include "inside/sinks.h"
 
 enum { CS_ARCHIVE_NAME = 40 };
@@ -23,8 +24,8 @@ typedef struct cs_archive_member {
 typedef struct cs_archive {
   celspan_context *context;
   cs_file *file; /* borrowed, and empty at the beginning */
-  cs_archive_member *members;
-  size_t count, capacity;
+  CS_ARRAY(cs_archive_member, members);
+  size_t count;
 } cs_archive;
 
 /* name: of at most CS_ARCHIVE_NAME - 1 bytes. Errors: OUTPUT, NO_MEMORY, LIMIT. */

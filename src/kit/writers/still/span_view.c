@@ -31,16 +31,16 @@ typedef struct axis_map {
 /* A row of the file, resampled to the columns of the frame. */
 typedef struct view_line {
   int32_t y; /* -1: none */
-  float *colours;
+  CS_ARRAY(float, colours);
 } view_line;
 
 struct cs_span_view {
   celspan_context *context;
   cs_span_reader *file;
   axis_map columns, rows;
-  double *sums;       /* 4 a column, and one column more: changes from the column before */
-  view_line lines[2]; /* the last two rows of the file that were used */
-  float *colours;     /* 4 a column: the row that is returned */
+  CS_ARRAY(double, sums);   /* 4 a column, and one column more: changes from the column before */
+  CS_ARRAY(float, colours); /* 4 a column: the row that is returned */
+  view_line lines[2];       /* the last two rows of the file that were used */
   celspan_span span;
 };
 
@@ -263,18 +263,15 @@ celspan_status cs_span_view_row(cs_span_view *view, int32_t y, const celspan_spa
 
 /* ---------------------------------------------------------------- making and freeing */
 
-static bool make_buffers(cs_span_view *view) {
-  cs_memory *memory = view->context->memory;
-  size_t columns = (size_t)view->columns.count, pixel = 4 * sizeof(float);
-  view->sums = cs_mem_array(memory, columns + 1, 4 * sizeof *view->sums);
-  view->colours = cs_mem_array(memory, columns, pixel);
-  bool is_made = view->sums && view->colours;
-  for (int i = 0; i < 2 && is_made; i++) {
+static celspan_status make_buffers(celspan_context *context, cs_span_view *view) {
+  size_t columns = (size_t)view->columns.count;
+  CS_TRY(CS_ARRAY_MAKE(context, view->sums, 4 * (columns + 1)));
+  CS_TRY(CS_ARRAY_MAKE(context, view->colours, 4 * columns));
+  for (int i = 0; i < 2; i++) {
     view->lines[i].y = -1;
-    view->lines[i].colours = cs_mem_array(memory, columns, pixel);
-    is_made = view->lines[i].colours != NULL;
+    CS_TRY(CS_ARRAY_MAKE(context, view->lines[i].colours, 4 * columns));
   }
-  return is_made;
+  return CELSPAN_OK;
 }
 
 celspan_status cs_span_view_create(celspan_context *context, cs_span_reader *file,
@@ -289,22 +286,16 @@ celspan_status cs_span_view_create(celspan_context *context, cs_span_reader *fil
                              is_whole ? frame->width : frame->crop_width};
   view->rows = (axis_map){(int32_t)info.height, frame->height, frame->crop_y,
                           is_whole ? frame->height : frame->crop_height};
-  if (!make_buffers(view)) {
-    cs_span_view_destroy(view);
-    return cs_fail_memory(context);
-  }
-  *out = view;
-  return CELSPAN_OK;
+  celspan_status status = make_buffers(context, view);
+  return CS_GIVE(status, view, cs_span_view_destroy, out);
 }
 
 void cs_span_view_destroy(cs_span_view *view) {
   if (!view)
     return;
   cs_memory *memory = view->context->memory;
-  size_t columns = (size_t)view->columns.count, pixel = 4 * sizeof(float);
-  cs_mem_free(memory, view->sums, (columns + 1) * 4 * sizeof *view->sums);
-  cs_mem_free(memory, view->colours, columns * pixel);
+  CS_ARRAYS_FREE(memory, view, sums, colours);
   for (int i = 0; i < 2; i++)
-    cs_mem_free(memory, view->lines[i].colours, columns * pixel);
+    CS_ARRAYS_FREE(memory, &view->lines[i], colours, colours);
   cs_mem_free(memory, view, sizeof *view);
 }

@@ -126,7 +126,7 @@ static bool read_row(const char *text, cs_hash *check, cs_tile_row *row) {
 /* ---------------------------------------------------------------- reading */
 
 static celspan_status keep_row(celspan_context *context, cs_tile_log *log, cs_tile_row row) {
-  return CS_APPEND(context, log->rows, log->count, log->capacity, row);
+  return CS_ARRAY_APPEND(context, log->rows, log->count, row);
 }
 
 /* Reads rows up to the first line that does not check. *trusted: the bytes before that line. */
@@ -306,7 +306,6 @@ void cs_tile_log_close(celspan_context *context, cs_tile_log *log) {
   if (log->descriptor >= 0)
     close(log->descriptor);
   log->descriptor = -1;
-  cs_mem_free(context->memory, log->rows, log->capacity * sizeof *log->rows);
-  log->rows = NULL;
-  log->count = log->written = log->capacity = 0;
+  CS_ARRAYS_FREE(context->memory, log, rows, rows);
+  log->count = log->written = 0;
 }

@@ -27,8 +27,8 @@ typedef struct cs_tile_log {
   char path[4096];
   cs_hash digest;
   cs_hash check; /* a hash of all lines so far, without their end */
-  cs_tile_row *rows;
-  size_t count, capacity;
+  CS_ARRAY(cs_tile_row, rows);
+  size_t count;
   size_t written; /* rows whose line is written */
   double synced;  /* time of the last flush, by cs_clock_seconds */
   int descriptor; /* -1: closed */

@@ -14,8 +14,7 @@ celspan_status cs_svg_skip(cs_svg_reading *reading, const cs_svg_node *node, con
                            ...) {
   if (reading->skipped_count >= CS_SVG_SKIPPED)
     return CELSPAN_OK;
-  CS_TRY(CS_RESERVE(reading->context, reading->skipped, reading->skipped_capacity,
-                    reading->skipped_count + 1));
+  CS_TRY(CS_ARRAY_RESERVE(reading->context, reading->skipped, reading->skipped_count + 1));
   cs_svg_skipped *entry = &reading->skipped[reading->skipped_count++];
   va_list arguments;
   va_start(arguments, format);

@@ -84,8 +84,8 @@ typedef struct cs_svg_reading {
    * next reading may give another drawing. */
   bool has_other_files;
   bool has_failed; /* the system could not read a file, so the drawing itself may be correct */
-  cs_svg_skipped *skipped;
-  size_t skipped_count, skipped_capacity;
+  CS_ARRAY(cs_svg_skipped, skipped);
+  size_t skipped_count;
 } cs_svg_reading;
 
 /* The elements that are being built: a reference to one of them is circular. */

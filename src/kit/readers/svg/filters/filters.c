@@ -98,7 +98,6 @@ static celspan_status make_steps(cs_svg_filter *f) {
 }
 
 static celspan_status make_recipe(cs_svg_filter *f, const cs_svg_filter_call *call) {
-  cs_memory *memory = f->reading->context->memory;
   cs_svg_recipe *recipe = f->recipe;
   recipe->space = f->reading->is_coded ? CELSPAN_SPACE_AROUND : f->reading->space;
   recipe->matrix = f->place->matrix;
@@ -107,7 +106,7 @@ static celspan_status make_recipe(cs_svg_filter *f, const cs_svg_filter_call *ca
   celspan_status status = f->owner ? make_steps(f) : make_function(f, call);
   if (status == CELSPAN_OK && f->reason)
     status = note(f, call);
-  CS_ARRAYS_FREE(memory, f, names, uses);
+  CS_ARRAYS_FREE(f->reading->context->memory, f, names, uses);
   return status;
 }
 
