@@ -21,7 +21,7 @@ const LANGUAGES = { lua: "lua", sh: "bash", c: "c", h: "c", json: "json", python
   py: "python", html: "html", js: "javascript", meson: "meson" };
 const AS_IS = ["llms.txt", "docs/pictures/little-one.mp4"]; // what links lead to is no page
 
-// What shows more of a moving picture than its first frame does, to those who want no motion.
+// In place of a moving picture, for those who want no motion: more than its first frame says.
 const STILLS = { "docs/pictures/moving.webp": "docs/pictures/little-one.webp" };
 const PLAYER = "celspan-film.js"; // in out/docs
 

@@ -48,8 +48,8 @@ setup(function()
   os.remove(folder)
   assert(os.execute(("mkdir -p %s/bin && cd %s && ln -s '%s' bin/celspan && ln -s '%s/scripts' .")
     :format(folder, folder, BINARY, root)))
-  assert(os.execute(("cd scripts && cp -r pictures drawings stage town type paintings pencil pencil.lua "
-    .. "demo/line.tsv %s/")
+  assert(os.execute(("cd scripts && cp -r pictures drawings stage town type paintings pencil "
+    .. "pencil.lua demo/line.tsv %s/")
     :format(folder)))
   for _, page in ipairs(pages) do
     markdown.save(page, folder, function(block)
