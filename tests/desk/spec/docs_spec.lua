@@ -46,8 +46,9 @@ end
 setup(function()
   folder = os.tmpname()
   os.remove(folder)
-  assert(os.execute(("mkdir -p %s/bin && cd %s && ln -s '%s' bin/celspan && ln -s '%s/scripts' .")
-    :format(folder, folder, BINARY, root)))
+  assert(os.execute(("mkdir -p %s/bin %s/scripts && ln -s '%s' %s/bin/celspan")
+    :format(folder, folder, BINARY, folder)))
+  assert(os.execute(("cd scripts && cp -r works type stage town %s/scripts/"):format(folder)))
   assert(os.execute(("cd scripts && cp -r pictures drawings stage town type paintings pencil "
     .. "pencil.lua demo/line.tsv %s/")
     :format(folder)))
