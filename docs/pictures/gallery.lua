@@ -20,7 +20,7 @@ local WORKS = {
     size = "a hundred rooms" }, -- no lines: rooms are added
   { "works/moon_cat", "Whoever pats the moon may get the day.",
     "`moon ~ town`: one exclusive-or is the whole picture",
-    "A cat on a chimney and the full moon behind it, in black and white" },
+    "A white cat in the night, and a moon as high as the picture, on which roofs are black" },
   { "works/puddle", "Nobody is looking.",
     "one drawing with bones; a list of seconds is the acting",
     "A child in a yellow coat hangs on an umbrella above a puddle, in the rain" },
@@ -70,7 +70,7 @@ local SUBJECTS = {
     strokes = "A thick wave of ink, red loops, and a green oval road with dashes" },
     "pencil light_table waving exposure_sheet strokes" },
   { "Words", {
-    title = "Long Night, in orange letters of which the last are still turning, over a dark hill",
+    title = "Long Night, in dark letters over dunes; the last two are still in the air",
     credits = "Jobs and names in two columns on black, faint at the upper and the lower edge" },
     "title credits" },
   { "Camera and depth", {
@@ -83,7 +83,7 @@ local SUBJECTS = {
     "parallax perspective pan rack_focus terapixel dissolve" },
   { "Light and paint", {
     layers = "Mountains behind firs, the last light on a peak",
-    relight = "The same house three times: at noon, in the evening, at dusk",
+    relight = "One house at a corner three times: at noon, at six, and at nine by its lamp",
     lights_and_gels = "A round window of red, blue and yellow glass in a dark wall",
     gradient = "A green vase, two balls and a cut stone on a table",
     kernels = "One drawing eight times, from hard to soft edges" },
