@@ -60,4 +60,5 @@ add_windows("still", make_rooms("scripts/town/boxes.csv", rows), folder .. "/tow
 -- The film of the way: its last sheet is cut from the first frame.
 run("'%s' tiles scripts/town.lua --sparse --scale 2 --progress none -o '%s/tiles'", binary, planes)
 run("'%s' render scripts/town/zoom.lua --allow scripts --allow '%s' --quality 70 --progress none "
-  .. "--set sheet='%s/tiles/town.dzi' -o '%s/town_zoom.mp4'", binary, planes, planes, folder)
+  .. "--set sheet=\"$(realpath '%s')/tiles/town.dzi\" -o '%s/town_zoom.mp4'", binary, planes,
+  planes, folder)
