@@ -49,6 +49,7 @@ function make_rooms(path, rows)
 end
 
 run("mkdir -p '%s'", planes)
+run("'%s' plane -o '%s/celspan-film.js'", binary, folder) -- the player of its page
 render("scripts/town.lua", "still", "--set part=still")
 local rows = {}
 for i, part in ipairs { "lights", "street", "air", "snow" } do -- below the rooms

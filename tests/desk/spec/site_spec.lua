@@ -207,7 +207,7 @@ describe("the site #plain", function()
       refused(menu, { ["README.md"] = "# celspan\n\nText.\n", ["docs/a.md"] = "# A\n\nText.\n" }))
   end)
 
-  it("plays the film of a work where it was made, and else shows its picture", function()
+  it("plays the film or the plane of a work where it was made, and else shows its picture", function()
     bench:inside("mkdir -p works/docs/pictures/works works/out/docs/works")
     bench:inside(("cp -r '%s/docs/site' works/docs/site"):format(root))
     bench:write("works/docs/site/menu.json", '{ "Begin": { "README.md": "celspan" } }')
@@ -223,6 +223,12 @@ describe("the site #plain", function()
     bench:write("works/out/docs/works/cat.mp4", "film")
     assert.matches('<video src="works/cat.mp4" poster="pictures/works/cat.webp"', index(), 1, true)
     assert.equal("film", bench:read "shown/works/cat.mp4")
+    bench:inside "mv works/out/docs/works/cat.mp4 works/out/docs/works/cat.plane"
+    bench:write("works/out/docs/celspan-film.js", "player")
+    assert.matches('<celspan-film src="works/cat.plane" autoplay loop controls', index(), 1, true)
+    assert.matches('src="celspan-film.js"></script>', index(), 1, true)
+    assert.same({ "film", "player" },
+      { bench:read "shown/works/cat.plane", bench:read "shown/celspan-film.js" })
   end)
 end)
 
