@@ -27,16 +27,17 @@ end
 --- The light of a lamp: a glow in the air and a pool on the snow.
 local function light(x)
   local warm = candle.light
-  return ellipse { x, 932, 104, 22, fill = radial { centre = { x, 932 }, radius = 104,
+  return circle { x, 932, 104, fill = radial { centre = { x, 932 }, radius = 104,
       { 0, rgb("#ffe2a0", 0.75) }, { 0.45, rgb("#ffe2a0", 0.34) }, { 1, rgb("#ffe2a0", 0) } } }
+      :scale(1, 0.22, x, 932)
     | circle { x, 854, 62, fill = radial { centre = { x, 854 }, radius = 62,
       { 0, rgb(warm, 0.55) }, { 0.3, rgb(warm, 0.2) }, { 1, rgb(warm, 0) } } }
 end
 
 -- Of his eight drawings: the feet, forward of his middle and above the snow, and his height.
 local steps = {
-  { 15, 0, -13, 1, 0 }, { 10, 0, -10, 5, 1.4 }, { 4, 0, -2, 7, 2.4 }, { -4, 0, 7, 6, 1.2 },
-  { -13, 1, 15, 0, 0 }, { -10, 5, 10, 0, 1.4 }, { -2, 7, 4, 0, 2.4 }, { 7, 6, -4, 0, 1.2 },
+  { 18.8, 0, -18.8, 1, 0 }, { 9.4, 0, -14, 5, 1.4 }, { 0, 0, -3, 7, 2.4 }, { -9.4, 0, 9, 6, 1.2 },
+  { -18.8, 1, 18.8, 0, 0 }, { -14, 5, 9.4, 0, 1.4 }, { -3, 7, 0, 0, 2.4 }, { 9, 6, -9.4, 0, 1.2 },
 }
 
 local function leg(hip, foot, lift, colour)

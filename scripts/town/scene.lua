@@ -13,7 +13,7 @@ local storm, snow = moods.storm, moods.snow
 local HORIZON = "#93a5ae"
 
 local sky = rect { 0, 0, W, H, fill = linear { from = { 0, 0 }, to = { 0, 430 },
-  { 0, storm.ink }, { 0.3, storm.sky[1] }, { 0.66, storm.sky[2] }, { 1, HORIZON } } }
+  { 0, storm.ink }, { 0.3, storm.sky[1] }, { 0.5, storm.sky[2] }, { 0.75, mix(storm.sky[2], HORIZON, 0.4) }, { 1, HORIZON } } }
 
 --- The hill from a line to the foot of the picture.
 local function hill(line, fill) return path { d = line .. " V1080 H0 Z", fill = fill } end
@@ -66,14 +66,14 @@ local street = path { fill = snow.sky[2], d = "M0 884 C500 872 1400 872 1920 884
 --- Prints of feet along the street, before and behind the lamps.
 local function prints()
   local list = {}
-  for i = 0, 62 do
-    local x, side = 392 + 20.6 * i, i % 2
+  for i = 0, 34 do
+    local x, side = 392 + 37.5 * i, i % 2
     list[#list + 1] = ellipse { x, 941 + 5 * side, 4.2, 1.6, fill = "#a9c0d0" }
   end
   return union(list)
 end
 
-local kennel = polygon { { 388, 980 }, { 388, 926 }, { 422, 902 }, { 456, 926 }, { 456, 980 },
+local kennel = ellipse { 426, 979, 56, 7, fill = "#c9d9e4" } | polygon { { 388, 980 }, { 388, 926 }, { 422, 902 }, { 456, 926 }, { 456, 980 },
     fill = "#3a4a50" }
   | stroke { width = 9, cap = "round", join = "round", fill = snow.sky[2],
     points = { { 382, 928 }, { 422, 900 }, { 462, 928 } } }
@@ -206,7 +206,7 @@ local function air(number)
   return union(shown)
 end
 
-local BETWEEN = rect { 384, 0, 1280, H } -- the houses in front
+local BETWEEN = rect { 384, 0, 1280, H } - kennel - bird_house -- the houses in front
 
 -- The parts of the town are planes of their own in its page, so that what is still is loaded once.
 return {
@@ -221,7 +221,7 @@ return {
   snow = function(f) return { snowfall.at(f.index / f.count) } end,
   all = function(f)
     return { far, air(f.index), panes.lit "ABCDSK", panes.dark(f.time),
-      lamplighter.lights(f.index, f.count), lamplighter.at(f.index, f.count), near,
+      lamplighter.lights(f.index, f.count), clip(lamplighter.at(f.index, f.count), BETWEEN), near,
       panes.lit "E", snowfall.at(f.index % 24 / 24) }
   end,
 }

@@ -126,6 +126,7 @@ local function in_pan(time)
   local yolk = circle { 20, -10, 140, fill = YOLK } | circle { -30, -66, 26, fill = GLOW }
   local turn = math.cos(2 * math.pi * flip)
   local fried_egg = white(time, splat, turn > 0 and SHELL or SHADE)
+  if turn <= 0 then fried_egg = fried_egg | circle { 20, -10, 128, fill = "#d9c9a4" } end
   if turn > 0 then
     fried_egg = fried_egg | yolk:scale(1 + 0.25 * (1 - splat), 1 - 0.25 * (1 - splat), 20, -10)
   end

@@ -164,8 +164,10 @@ local function drench(t, x, y)
     end
   end
   if fall > 0 and fall < 1 then
-    list[#list + 1] = ellipse { x, y - 34 * (1 - fall), 92 - 26 * fall, 14 + 30 * fall,
-      fill = mood.light }
+    for i = -5, 5 do
+      list[#list + 1] = ellipse { x + 15 * i, y - 60 + (70 + 26 * math.cos(2.3 * i)) * fall, 7,
+        12 + 40 * fall, fill = i % 2 == 0 and mood.light or "#8fb0b5" }
+    end
   end
   if u > 0 and u < 1 then
     list[#list + 1] = crown(u, 66, 60, 70):translate(x, y + 26)

@@ -92,9 +92,9 @@ local function bird(f, t)
     if colour > 0 then parts[#parts + 1] = body:translate(7, 5):fade(0.85 * colour) end
     parts[#parts + 1] = line({ points = points, width = width }, f)
   end
-  if flies then drawn(wing(110, -48, 0.8 * up + 0.1, 0.8), 4.5, 0.5) end
+  if flies then drawn(wing(126, -48, 0.8 * up + 0.35, 1.25), 4.5, 0.5) end
   drawn(outline, 6.5, blush:at(t))
-  if flies then drawn(wing(90, -40, up, 1.1), 6, 1) end
+  if flies then drawn(wing(90, -40, up, 1.5), 6, 1) end
   if t > 3.6 and not flies then
     parts[#parts + 1] = line({ points = FOLDED, width = 5 }, f):fade(motion.span(t, 3.6, 0.2))
   end

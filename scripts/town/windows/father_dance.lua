@@ -24,7 +24,7 @@ local father = { fill = wash(0, 230, 0, 560, "#8f5a30", "#6b3c20", "#4a2614"), e
     .. "C66 -284 54 -308 22 -312 Z"),
   sleeve = "#6b3c20", skin = SKIN, hair = "#3f1d0f", shade = "#3f1d0f", nose = "#d98f5c",
     size = 0.82,
-  head = 350, shoulder = 276, broad = 50, hold = 132, eyes = "shut" }
+  head = 350, shoulder = 276, broad = 50, hold = 196, eyes = "shut" }
 local child = { fill = wash(0, 360, 0, 560, "#ffd98a", "#eab052", "#b87830"),
   body = form(nil, "M-12 -150 C-34 -148 -38 -130 -36 -112 C-36 -80 -50 -50 -54 -22 "
     .. "C-30 -10 30 -10 54 -22 C50 -50 36 -80 36 -112 C38 -130 34 -148 12 -150 Z")
@@ -39,5 +39,5 @@ return window.film { title = "On his feet", by = "ga", seconds = 4, drawing = fu
   father.lift, child.lift = step, 12 + step
   child.eyes = n % 5 == 0 and "shut" or "open"
   child.brow = n > 6 and n < 12 and 6 or 0
-  return { room, (couple.draw(225, 560, n / 16 + 0.6, father, child)) }
+  return { room, (couple.draw(225, 560, 0.6 + 0.15 * math.sin(2 * math.pi * n / 16), father, child)) }
 end }

@@ -18,6 +18,6 @@ return window.film { title = "The girl with the telescope", by = "in", seconds =
     local long, hop = table.unpack(acting:at(step))
     local wave = nil
     if step > 5 and step < 13 then wave = step % 2 == 0 and -20 or 16 end
-    return { WALL, telescope.watcher("girl", long, false, wave):translate(196, 320 + hop)
+    return { WALL, telescope.watcher("girl", long, false, wave):translate(232, 320 + hop)
       :paint(mood.ink) }
   end }
