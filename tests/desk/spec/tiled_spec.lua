@@ -214,6 +214,9 @@ end }]])
       1000)
     local seen = difference("far.png", "plain.png")
     assert.is_true(seen > 0.05 and seen < 1, seen) -- about a pixel
+    part("there.png", detailed:format "", 700 * 1025 + 448, 248, 4, 3)
+    part("clear.png", "'#0000'", 0, 0, 4, 3)
+    assert.equal(0, difference("there.png", "clear.png"))
     part("again.png", detailed:format "wrap = 'repeat',", 1148, 748, 4, 3)
     assert.is_true(difference("again.png", "near.png") < 1 / 255)
   end)
@@ -221,7 +224,7 @@ end }]])
   it_reads("says what is wrong with them", function()
     cut()
     for fields, message in pairs {
-      ["details = {}"] = "picture: field 'box' must be a box {x, y, width, height}, got nil",
+      ["details = { {} }"] = "picture: field 'box' must be a box {x, y, width, height}, got nil",
       ["box = { 0, 0, 1, 1 }, details = 3"] =
         "picture: field 'details' must be a list of {box =, file =}, got number",
       ["box = { 0, 0, 1, 1 }, details = { 7 }"] =
@@ -229,7 +232,13 @@ end }]])
       ["box = { 0, 0, 1, 1 }, details = { { file = 'p.png', box = { 0, 0, 1 } } }"] =
         "picture: detail 1: field 'box'[4] must be a number, got nil",
       ["box = { 0, 0, 1, 1 }, wrap = 'clamp', details = {}"] =
-        "picture: with details, field 'wrap' must be \"clear\" or \"repeat\", got string",
+        'picture: one with details cannot have wrap = "clamp": "clear" or "repeat"',
+      ["box = { 0, 0, 1, 1 }, details = { { box = { 0, 0, 1, -4 }, file = 'p.png' } }"] =
+        "picture: detail 1: width and height of its box must be above 0, got -4",
+      ["box = { 0, 0, 1, 1 }, details = { box = { 0, 0, 1, 1 } }"] =
+        "picture: field 'details' must be a list of {box =, file =}; it has the key 'box'",
+      ["box = { 0, 0, 1, 1 }, details = { { details = {} } }"] =
+        "picture: detail 1 has details: list them all in the picture",
     } do
       film(("rect { 0, 0, 9, 9, fill = picture { file = 'p/scan.dzi', %s } }"):format(fields))
       assert.matches(message, failure(), 1, true)
