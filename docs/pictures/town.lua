@@ -38,12 +38,15 @@ local function make_room(room)
   return room .. "_open.plane"
 end
 
---- Rows for the rooms in a table of boxes, of those that have a script.
+--- Rows for the rooms in a table of boxes, one for each box.
 function make_rooms(path, rows)
   rows = rows or {}
   for line in system.read(path):gmatch "[^\n]+" do
-    local place, room = line:match "^%w+,([%d.]+,[%d.]+,[%d.]+,[%d.]+).*,([%l_]+)$"
-    if room then rows[#rows + 1] = ("%s,%s\n"):format(place, make_room(room)) end
+    local place, room = line:match "^%w+,([%d.]+,[%d.]+,[%d.]+,[%d.]+).*,([%l%d_]+)$"
+    if not line:find "^box," then
+      assert(room, path .. ": this row is not understood: " .. line)
+      rows[#rows + 1] = ("%s,%s\n"):format(place, make_room(room))
+    end
   end
   return rows
 end
@@ -58,8 +61,8 @@ for i, part in ipairs { "lights", "street", "air", "snow" } do -- below the room
 end
 add_windows("still", make_rooms("scripts/town/boxes.csv", rows), folder .. "/town.plane")
 
--- The film of the way: its last sheet is cut from the first frame.
-run("'%s' tiles scripts/town.lua --sparse --scale 2 --progress none -o '%s/tiles'", binary, planes)
+-- The film of the way: its last sheet is cut from the frame with which it begins.
+run("'%s' tiles scripts/town.lua --frame 97 --sparse --scale 2 --progress none -o '%s/tiles'", binary, planes)
 run("'%s' render scripts/town/zoom.lua --allow scripts --allow '%s' --quality 70 --progress none "
   .. "--set sheet=\"$(realpath '%s')/tiles/town.dzi\" -o '%s/town_zoom.mp4'", binary, planes,
   planes, folder)

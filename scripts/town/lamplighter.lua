@@ -7,7 +7,7 @@ local snow, candle = moods.snow, moods.candle
 local lamplighter = {}
 
 local FROM, TO, FOOT = 350, 1700, 940 -- he begins and ends behind the houses in front
-local LAMPS = { 554, 745, 952, 1236, 1521, 1626 }
+local LAMPS = { 554, 745, 890, 1236, 1521, 1626 }
 local REACH = 26 -- from him to the end of his pole
 local EARLY = 1.5 / 12 * (TO - FROM) -- a lamp goes out so long before he is there
 local IRON = "#1d2629"

@@ -6,21 +6,15 @@ local window = require "town.window"
 
 local panes = {}
 
-panes.boxes = assert(csv.read("boxes.csv",
-  { types = { x = "number", y = "number", width = "number", height = "number" } }))
+panes.types = { x = "number", y = "number", width = "number", height = "number" }
+panes.boxes = assert(csv.read("boxes.csv", { types = panes.types }))
 
 local DARK = { "#3a474b", "#2a3539" } -- a room whose light is out
-
-local function kind_of(box)
-  if box.width == 2 * box.height then return "plain" end
-  if box.width > 1.3 * box.height then return "shop" end
-  return box.width == box.height and "round" or "transom"
-end
 
 --- A pane with its two tones.
 local function pane(box, above, below)
   local x, y, w, h = box.x, box.y, box.width, box.height
-  local glass = kind_of(box) == "round" and circle { x + w / 2, y + h / 2, w / 2 }
+  local glass = box.pane == "round" and circle { x + w / 2, y + h / 2, w / 2 }
     or rect { x, y, w, h }
   return clip(rect { x, y, w, 0.64 * h, fill = above }
     | rect { x, y + 0.64 * h, w, 0.36 * h, fill = below }, glass)
@@ -29,11 +23,12 @@ end
 --- The frame of a pane, from the drawing of a window of 600 units in height.
 local function frame(box)
   local scale = box.height / 600
-  return window.frame(box.width / scale, 600, kind_of(box)):scale(scale):translate(box.x, box.y)
+  return window.frame(box.width / scale, 600, box.pane):scale(scale):translate(box.x, box.y)
 end
 
 local lit, dark, frames = {}, {}, {}
 for i, box in ipairs(panes.boxes) do
+  assert(box.box:find "^[A-EKS]", box.box .. ": boxes begin with the letter of a tier, K or S")
   lit[i] = pane(box, box.above, box.below)
   dark[i] = pane(box, DARK[1], DARK[2])
   frames[i] = frame(box)

@@ -49,13 +49,26 @@ local function firs(tier, list)
   return union(parts)
 end
 
+--- Snow that has drifted against the foot of a row of houses, up to x.
+local function drift(to, y)
+  local points = {}
+  for i = 0, 16 do
+    points[i + 1] = { 400 + (to - 400) * i / 16, y + 4 * math.sin(2.3 * i), 10 + 4 * math.sin(1.7 * i) }
+  end
+  return stroke { points = points, degree = 2, cap = "round", fill = "#9db0ba" }
+end
+
 --- The tram that waits in the lane, behind its three windows.
 local tram = path { fill = "#2a3b40", d = "M904 772 Q904 764 914 764 H996 Q1006 764 1006 772 V846"
     .. " H904 Z" }
-  | rect { 904, 826, 102, 8, fill = "#41565b" } | rect { 900, 758, 110, 8, radius = 4,
+  | path { fill = "#6f3a30", d = "M904 824 H1006 V846 H904 Z" }
+  | rect { 904, 822, 102, 4, fill = "#c9a36a" } | rect { 900, 758, 110, 8, radius = 4,
     fill = snow.sky[2] }
-  | rect { 918, 846, 20, 8, radius = 4, fill = storm.ink }
-  | rect { 972, 846, 20, 8, radius = 4, fill = storm.ink }
+  | circle { 955, 835, 5, fill = "#ffe9b0" } | rect { 934, 770, 42, 12, radius = 3, fill = "#ffe2a0" }
+  | stroke { width = 2, fill = storm.ink, d = "M930 758 L955 736 L980 758 M880 734 H1030" }
+  | rect { 916, 846, 22, 8, radius = 3, fill = storm.ink }
+  | rect { 972, 846, 22, 8, radius = 3, fill = storm.ink }
+  | stroke { width = 2.4, fill = "#8ba4b2", d = "M926 856 L916 884 M984 856 L994 884" }
 
 local street = path { fill = snow.sky[2], d = "M0 884 C500 872 1400 872 1920 884 V1080 H0 Z" }
   | path { fill = snow.sky[3], d = "M0 962 C260 940 520 966 760 958 S1260 946 1480 960 1800 950 "
@@ -75,12 +88,16 @@ end
 
 local kennel = ellipse { 426, 979, 56, 7, fill = "#c9d9e4" } | polygon { { 388, 980 }, { 388, 926 }, { 422, 902 }, { 456, 926 }, { 456, 980 },
     fill = "#3a4a50" }
-  | stroke { width = 9, cap = "round", join = "round", fill = snow.sky[2],
+  | stroke { width = 11, cap = "round", join = "round", fill = "#9fb4c2",
+    points = { { 382, 930 }, { 422, 902 }, { 462, 930 } } }
+  | stroke { width = 9, cap = "round", join = "round", fill = snow.sky[3],
     points = { { 382, 928 }, { 422, 900 }, { 462, 928 } } }
 local bird_house = rect { 1123, 914, 6, 66, fill = "#37464a" }
   | polygon { { 1114, 922 }, { 1114, 898 }, { 1126, 888 }, { 1138, 898 }, { 1138, 922 },
     fill = "#3f5158" }
-  | stroke { width = 4, cap = "round", join = "round", fill = snow.sky[2],
+  | stroke { width = 6, cap = "round", join = "round", fill = "#9fb4c2",
+    points = { { 1111, 900 }, { 1126, 887 }, { 1141, 900 } } }
+  | stroke { width = 4, cap = "round", join = "round", fill = snow.sky[3],
     points = { { 1111, 899 }, { 1126, 886 }, { 1141, 899 } } }
 
 local awning = path { fill = snow.accent, d = "M592 774 H708 L718 790 a9.6 7 0 0 1 -19.1 0 "
@@ -88,9 +105,9 @@ local awning = path { fill = snow.accent, d = "M592 774 H708 L718 790 a9.6 7 0 0
   .. "a9.6 7 0 0 1 -19.2 0 a9.6 7 0 0 1 -19.1 0 Z" }
 
 --- Signs that hang from an arm of iron: a pretzel, a mug, and a reel of film.
-local signs = stroke { width = 2, fill = "#0b1012", d = "M1196 744 h22 M740 744 h18 M1518 744 h18" }
-  | stroke { width = 3, fill = "#d9a441", cap = "round",
-    d = "M742 764 C740 752 750 750 751 760 C752 750 762 752 760 764 C756 770 746 756 744 754" }
+local signs = stroke { width = 2, fill = "#0b1012", d = "M1194 744 h18 M752 744 h-14 M1516 744 h20" }
+  | stroke { width = 3, fill = "#d9a441", cap = "round", d = "M741 767 C729 771 727 752 736 752 "
+    .. "C745 752 744 763 736 769 M741 767 C753 771 755 752 746 752 C737 752 738 763 746 769" }
   | path { fill = "#d9a441", d = "M1202 752 h13 v18 h-13 Z" }
   | stroke { width = 2.4, fill = "#d9a441", d = "M1215 756 q7 4 0 10" }
   | rect { 1200, 749, 17, 5, radius = 2.5, fill = "#f3f3ef" }
@@ -122,8 +139,8 @@ for _, place in ipairs { { 462, 862, 24, 42 }, { 716, 860, 20, 42 }, { 854, 858,
   doors = doors | door(place[1], place[2], place[3], place[4])
 end
 
---- A snowman, a sledge and a fence, in the snow in front.
-local snowman = circle { 800, 1004, 27, fill = "#b7cad8" }
+--- A snowman and a fence, in the snow in front.
+local snowman = ellipse { 804, 1030, 36, 5, fill = "#a9c0d0" } | circle { 800, 1004, 27, fill = "#b7cad8" }
   | circle { 797, 1002, 26, fill = snow.sky[3] }
   | circle { 800, 962, 19, fill = "#b7cad8" } | circle { 798, 960, 18, fill = snow.sky[3] }
   | polygon { { 812, 962 }, { 834, 968 }, { 811, 970 }, fill = "#d98a3a" }
@@ -131,6 +148,8 @@ local snowman = circle { 800, 1004, 27, fill = "#b7cad8" }
   | path { fill = storm.ink, d = "M776 950 Q798 940 822 946 L812 943 L808 922 L784 926 L786 946 Z" }
   | stroke { width = 3, fill = storm.ink, points = { { 776, 990 }, { 752, 966 }, { 744, 968 } } }
   | stroke { width = 3, fill = storm.ink, points = { { 752, 966 }, { 750, 956 } } }
+  | stroke { width = 3, fill = storm.ink, points = { { 824, 992 }, { 850, 974 }, { 858, 978 } } }
+  | circle { 800, 986, 2, fill = storm.ink } | circle { 801, 996, 2, fill = storm.ink }
 
 local function fence(from, to, y)
   local parts = {}
@@ -150,10 +169,10 @@ local front = fence(1230, 1660, 1006) | snowman:translate(20, 36)
 local function smoke(place, number)
   local x, y, wide = place[1], place[2], place[3]
   local parts = {}
-  for i = 0, 4 do
-    local u = (i + number / 8) / 5
+  for i = 0, 7 do
+    local u = (i + number / 8) / 8
     parts[#parts + 1] = circle { x + wide * (0.5 * math.sin(4 * u) + 3.4 * u * u), y - 9 * wide * u,
-      wide * (0.45 + 1.2 * u), fill = rgb("#c6d2d3", 0.55 * (1 - u) ^ 1.3) }
+      wide * (0.45 + 1.2 * u), fill = rgb("#c6d2d3", 0.3 * (1 - u) ^ 1.3) }
   end
   return union(parts)
 end
@@ -171,10 +190,10 @@ local far = union {
   houses.of "A", houses.church(),
   slopes.B, clip(lane, slopes.B), firs("B", { { 420, 556, 60 }, { 462, 546, 78 }, { 504, 538, 56 },
     { 1690, 534, 74 }, { 1736, 546, 56 }, { 1780, 556, 66 } }),
-  houses.of "B",
+  houses.of "B", drift(1630, 523),
   slopes.C, clip(lane, slopes.C), firs("C", { { 990, 652, 58 }, { 1878, 664, 90 },
     { 1690, 660, 60 } }),
-  houses.of "C",
+  houses.of "C", drift(1850, 656),
   slopes.D, clip(lane, slopes.D), houses.of "D", doors, signs, tram, awning,
   street, spills, prints(), kennel, bird_house, front, lamplighter.dark(),
 }

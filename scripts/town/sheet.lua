@@ -96,7 +96,7 @@ local before = {
 --- The lamps of the street, and the lamplighter at one of them.
 local function street()
   local parts = {}
-  for i, x in ipairs { 554, 744, 952, 1236, 1520, 1624 } do
+  for i, x in ipairs { 554, 745, 890, 1236, 1520, 1624 } do
     parts[i] = rect { x - 2, 850, 4, 76, fill = storm.ink }
       | circle { x, 848, 8, fill = candle.light }
   end

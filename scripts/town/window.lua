@@ -22,13 +22,12 @@ end
 --- Bars of the glass of a frame w by h: { x, y, width, height } each.
 local bars = {
   plain = function() return {} end,
-  cross = function(w, h, b) return { { 0, 0.36 * h, w, b }, { (w - b) / 2, 0, b, h } } end,
   transom = function(w, h, b) return { { 0, 0.2 * h, w, b }, { (w - b) / 2, 0, b, 0.2 * h } } end,
   shop = function(w, h, b) return { { 0, 0.14 * h, w, b }, { w / 3, 0, b, 0.14 * h },
     { 2 * w / 3, 0, b, 0.14 * h } } end,
 }
 
---- The wood of a window, w by h, and the snow on its sill. Kinds of panes: "plain", "cross",
+--- The wood of a window, w by h, and the snow on its sill. Kinds of panes: "plain",
 --- "transom" (bars above alone), "shop" (a wide one), and "round".
 function window.frame(w, h, kind)
   local edge = 0.028 * math.max(w, h)
@@ -51,13 +50,22 @@ function window.frame(w, h, kind)
   return union(parts)
 end
 
---- Who drew it: two letters in the snow of the sill, a 60th of the width, for who comes near.
+--- Who drew it: two letters in the snow of the sill, for who comes near.
 local function signature(by, w, h)
-  return text { by, at = { 0.7 * w, h - 0.004 * h }, size = w / 60, font = window.font,
+  local size = w / 60
+  return text { by, at = { 0.7 * w, h - 0.35 * size }, size = size, font = window.font,
     fill = moods.snow.ink }
 end
 
 window.font = "../type/poster.ttf"
+
+--- Stops where a field is not what window.film takes.
+local function check(fields, kind)
+  assert(type(fields.by) == "string", "window: 'by' must be the letters of who drew it")
+  assert(({ [2] = 1, [4] = 1, [8] = 1 })[fields.seconds], "window: 'seconds' must be 2, 4 or 8")
+  assert(kind == "round" or bars[kind], "window: 'pane' must be plain, transom, shop or round")
+  assert(type(fields.drawing) == "function", "window: 'drawing' must be a function")
+end
 
 --- The film of a window. title; by: who drew it; seconds: 2, 4 or 8; size: 450 by 600 if not given;
 --- pane: the kind of window.frame; drawing: a function of the share of the loop that has gone, 0 to
@@ -65,16 +73,16 @@ window.font = "../type/poster.ttf"
 --- fills the frame.
 function window.film(fields)
   local w, h = table.unpack(fields.size or { 450, 600 })
-  local is_round = fields.pane == "round" -- around the glass one sees the wall
-  local over = window.frame(w, h, fields.pane or "transom") | signature(fields.by, w, h)
+  local kind = fields.pane or "transom"
+  check(fields, kind)
+  local is_round = kind == "round" -- around the glass one sees the wall
+  local over = window.frame(w, h, kind) | signature(fields.by, w, h)
   local glass = circle { w / 2, h / 2, math.min(w, h) / 2 }
   return film { title = fields.title, size = { w, h }, fps = 12, duration = fields.seconds,
     background = not is_round and WOOD or nil,
     frame = function(f)
-      local shown = fields.drawing(f.index / f.count, f.index)
-      if is_round then shown = { clip(union(shown), glass) } end
-      shown[#shown + 1] = over
-      return cel(shown)
+      local shown = union(fields.drawing(f.index / f.count, f.index))
+      return cel { is_round and clip(shown, glass) or shown, over }
     end }
 end
 

@@ -1,8 +1,9 @@
 -- The way into the town, upright, with sound, for places where nobody can zoom: from the street to
 -- the animator's paper, to the paper on that paper, and to the town that lies on the last one.
 --
--- With --set sheet=still.dzi the last sheet is a picture in tiles, cut by `celspan tiles` from the
--- still town; without it, a drawing.
+-- With --set sheet=town.dzi the last sheet is a picture in tiles, cut by `celspan tiles` from the
+-- town; without it, a drawing.
+local csv = require "celspan.csv"
 local panes = require "town.panes"
 local scene = require "town.scene"
 local score = require "works.sound.score"
@@ -10,6 +11,7 @@ local score = require "works.sound.score"
 local set = parameters { sheet = "" }
 
 local W, H, SECONDS = 1080, 1920, 20
+local FIRST = 96 -- he is at the lamp of the story
 local TALL = { 450, 600 } -- of a room of the chain
 
 -- ---------------------------------------------------------------- the places
@@ -29,8 +31,9 @@ for _, box in ipairs(panes.boxes) do
     list[#list + 1] = room_of(box.room, box.x, box.y, box.width, box.height)
   end
 end
-for _, name in ipairs { "animator_drawn", "animator_blue" } do
-  chain[#chain + 1] = room_of(name, 268.76, 356.25, 3.6, 4.8)
+for _, name in ipairs { "animator", "animator_drawn" } do -- each has one window
+  local box = assert(csv.read("windows/" .. name .. ".csv", { types = panes.types }))[1]
+  chain[#chain + 1] = room_of(box.room, box.x, box.y, box.width, box.height)
 end
 
 --- Where a place of the frame of level k, 0 for the town, is in units of the town; and the size
@@ -50,7 +53,7 @@ end
 local SHEET = { 45, 300, 360, 202.5 }
 local stops = {
   { 0, 0, 1203, 540, 1080 }, { 1.8, 0, 1203, 540, 1080 }, { 7.6, 1, 225, 300, 588 },
-  { 10.4, 1, 225, 320, 520 }, { 13.4, 2, 225, 300, 588 }, { 14.6, 2, 225, 320, 540 },
+  { 9.8, 1, 225, 320, 520 }, { 13.4, 2, 225, 300, 588 }, { 14.6, 2, 225, 320, 540 },
   { 17.4, 3, 225, 300, 588 }, { 18, 3, 225, 320, 560 },
   { 19.6, 3, SHEET[1] + SHEET[3] * 1203 / 1920, SHEET[2] + SHEET[4] / 2, SHEET[4] },
   { 20, 3, SHEET[1] + SHEET[3] * 1203 / 1920, SHEET[2] + SHEET[4] / 2, SHEET[4] },
@@ -103,7 +106,7 @@ local function frame(f)
   local cx, cy, height = view(f.time)
   local shown, zoom = {}, H / height
   if zoom * chain[1].height < 1.7 * H then
-    local drawing = math.floor(f.time * 12) % 144
+    local drawing = (FIRST + math.floor(f.time * 12)) % 144
     local art = scene.all { index = drawing, count = 144, time = drawing / 12 }
     shown[1] = put(union(art), W / 2 - cx * zoom, H / 2 - cy * zoom, zoom)
     put_others(shown, f.time, cx, cy, zoom)
