@@ -1,4 +1,4 @@
--- From noon to dusk: the light is removed from a picture, which a script drew in place of a
+-- From noon to night: the light is removed from a picture, which a script drew in place of a
 -- photograph, and the rest is relit through the day. A photograph of yours, and its light, may be
 -- given after --:
 --   celspan render scripts/relight.lua -o dusk.mp4 -- photo.jpg "#fff4e0"

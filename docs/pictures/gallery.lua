@@ -182,7 +182,7 @@ end
 io.write [[
 # Gallery
 
-Works of a few seconds. Each is a script in this folder: watch it, change a number, make it yours.
+Works of a few seconds. Each is a script: watch it, change a number, make it yours.
 ]]
 local is_put = {}
 local function note(work)
@@ -214,7 +214,7 @@ Everything here is drawn by its script: what looks like a photograph or a scan, 
 ## All scripts
 
 [The cookbook](cookbook.md) has shorter ones, one for each task. [`celspan watch`](watch.md) shows a
-film again each time its script is saved, here the first film as a cut:
+film again each time its script is saved, here the film of `celspan init`:
 
 ![A page in a browser: a cat that leaps before the moon, what is drawn at a point of it, and below
 them the time line](pictures/watch.png)

@@ -1,5 +1,5 @@
 -- The houses of the town: five tiers of a hill, nearly black in front and pale at the top, each
--- with snow on its roof. The windows come from town/boxes.csv; a house is drawn around its own.
+-- with snow on its roof. Their windows are those of town/boxes.csv, which has to be kept in step.
 local moods = require "stage.moods"
 
 local storm, snow = moods.storm, moods.snow
