@@ -53,9 +53,14 @@ local function head(p, look, paper)
   if look then
     return union { bun, p.form({ 130, 200, 138, 158, 176, 142, 212, 162, 214, 206, 188, 238, 156,
         236 }, pencil.skin, 4),
-      p.form({ 120, 226, 108, 170, 140, 128, 190, 124, 222, 154, 222, 186, 222, 186, 196, 166, 164,
-        160, 146, 186, 140, 232 }, hair, 5.5),
-      p.dot(172, 196, 5), p.dot(202, 195, 5), p.line({ 186, 200, 192, 208, 185, 211 }, 3),
+      p.form({ 120, 226, 108, 170, 140, 128, 190, 124, 222, 154, 222, 182, 222, 182, 196, 180, 164,
+        172, 148, 194, 140, 232 }, hair, 5.5),
+      p.line({ 124, 212, 132, 180, 156, 158, 188, 154 }, 3.5),
+      p.line({ 118, 190, 130, 160, 152, 146 }, 3),
+      p.dot(172, 197, 3.5), p.dot(203, 196, 3.5),
+      circle { 171, 197, 12 }:stroke { width = 2.5, fill = pencil.ink },
+      circle { 204, 196, 12 }:stroke { width = 2.5, fill = pencil.ink },
+      p.line({ 183, 195, 188, 192, 192, 195 }, 2.5), p.line({ 186, 200, 192, 208, 185, 211 }, 3),
       p.line({ 170, 219, 184, 226, 200, 218 }, 4), p.line({ 158, 214, 166, 208 }, 3) }
   end
   return union { p.wash({ 170, 168, 204, 168, 212, 190, 224, 206, 212, 212, 208, 230, 184, 240, 150,
@@ -91,7 +96,8 @@ function studio.animator(p, hand, lift, look, paper)
   local near, nx, ny = p.limb(52, 330, { 104 + 40 * lift, 500 - 40 * lift }, 108, 1, { 74, 40 },
     "#35505a")
   return union { far,
-    path { fill = paper and pencil.ink or "#e0a52f",
+    paper and p.form({ x, y, x, y, x + 37, y - 34, x + 37, y - 34, x + 42, y - 28, x + 42, y - 28 },
+      paper, 2.5) or path { fill = "#e0a52f",
       d = ("M%.1f %.1fL%.1f %.1fL%.1f %.1fZ"):format(x, y, x + 58, y - 48,
       x + 64, y - 41) }, polygon { { x, y }, { x + 9, y - 9 }, { x + 11, y - 6.5 },
       fill = pencil.ink },
