@@ -22,7 +22,8 @@ return window.film { title = "The cat walks asleep", by = "in", seconds = 4, pan
     local x = place(0)
     local lit = circle { x + light[1], FLOOR + light[2], 120 }
     local moon = polygon { { 150, 130 }, { 330, 90 }, { 330, 400 }, { 150, 440 } }
-    local shapes = (moon ~ (lit - PORTRAIT)) ~ (cat:translate(x, FLOOR) | man:translate(place(210), FLOOR))
+    local figures = cat:translate(x, FLOOR) | man:translate(place(210), FLOOR)
+    local shapes = moon ~ (lit - PORTRAIT) ~ figures
     return { NIGHT, shapes:scale(-1, 1):translate(450, 0):paint(mood.light),
       flame:translate(x, FLOOR):scale(-1, 1):translate(450, 0):paint(mood.accent) }
   end }
