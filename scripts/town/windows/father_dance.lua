@@ -1,5 +1,4 @@
--- A father dances with a child on his feet; once round, and the child looks at us over its
--- shoulder.
+-- A father sways with a child on his feet; the child looks at us over its shoulder.
 local couple = require "town.couple"
 local gouache = require "town.gouache"
 local window = require "town.window"
@@ -39,5 +38,6 @@ return window.film { title = "On his feet", by = "ga", seconds = 4, drawing = fu
   father.lift, child.lift = step, 12 + step
   child.eyes = n % 5 == 0 and "shut" or "open"
   child.brow = n > 6 and n < 12 and 6 or 0
-  return { room, (couple.draw(225, 560, 0.6 + 0.15 * math.sin(2 * math.pi * n / 16), father, child)) }
+  local turn = 0.6 + 0.15 * math.sin(2 * math.pi * n / 16)
+  return { room, (couple.draw(225, 560, turn, father, child)) }
 end }
