@@ -76,7 +76,7 @@ function telescope.watcher(who, long, wrong, wave)
     local x, radians = -126 + 0.6 * wave, math.rad(wave)
     local elbow = { x - 100 * math.sin(radians), -60 + 100 * math.cos(radians), 46 }
     shape = shape | ink.hand():scale(0.9):rotate(wave):translate(x, -60)
-      | ink.limb({ -84, 190, 70 }, { elbow[1] - 6, 110, 56 }, elbow)
+      | ink.limb({ -104, 200, 70 }, { elbow[1] - 6, 110, 56 }, elbow)
   end
   return shape
 end
