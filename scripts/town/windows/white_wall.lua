@@ -38,11 +38,11 @@ local function painter(n, colour)
 end
 
 return window.film { title = "White", by = "pw", seconds = 4, drawing = function(_, number)
-  local drawing = (number // 3 + 2) % 16
+  local drawing = (number // 3 + 4) % 16
   local n, white = drawing % 8, drawing < 8
   local x = 84.375 * (n - 1.5)
-  local ahead = white and math.max(x + 225, 112.5) or math.min(x - 225, 112.5)
-  local step = (ahead == 112.5) and 0 or n
+  local ahead = white and math.max(x + 225, 300) or math.min(x - 225, 300)
+  local step = (ahead == 300) and 0 or n
   return { rect { 0, 0, 450, 600, fill = white and YELLOW or WHITE },
     rect { -10, 0, math.max(1, x + 132), 512, fill = white and WHITE or YELLOW }, floor,
     horse(step):translate(ahead, 506), painter(n, white and WHITE or YELLOW):translate(x, 0) }
