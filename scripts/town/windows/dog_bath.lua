@@ -30,12 +30,13 @@ local function dog(p, ears, shut)
     :translate(14.0625 * ears, 0)
 end
 
---- Foam on the pane that slides down by `down`.
+--- Foam on the pane that slides down by `down`, and leaves a wet track.
 local function blots(down)
   local list = {}
-  for i, at in ipairs { { 70, 220, 26 }, { 330, 180, 32 }, { 220, 250, 20 }, { 396, 300, 20 } } do
+  for i, at in ipairs { { 70, 220, 14 }, { 330, 180, 18 }, { 120, 330, 11 }, { 396, 300, 11 } } do
     local x, y, r = at[1], at[2] + down * (0.6 + i % 3 * 0.3), at[3]
-    list[i] = path { fill = FOAM,
+    list[i] = path { fill = rgb(FOAM, 0.6),
+      d = ("M%g %gl-5 %gh10Z"):format(x, y - r - 0.4 * down, 0.4 * down + 1) } | path { fill = FOAM,
       d = ("M%g %gq0 %g %g %gq%g 0 %g %gq0 %g %g %gq%g 0 %g %gZ"):format(
       x - r, y, -r, r, -r, r, r, r, 1.7 * r, -r, 1.7 * r, -r, -r, -1.7 * r) }
   end
