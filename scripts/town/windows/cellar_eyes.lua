@@ -31,10 +31,10 @@ return window.film { title = "Eyes in the cellar", by = "in", seconds = 2, size 
     local fox, goose, mouse, all = table.unpack(opened:at((number // 2 + 8) % 12))
     local shown = { NIGHT }
     if all > 0 then
-      shown[2] = (pair(400, 186, 340, 156, all, 0.15) - (FOX | GOOSE | MOUSE)):paint(mood.light)
+      shown[2] = (pair(400, 186, 340, 156, all, 0.3) - (FOX | GOOSE | MOUSE)):paint(mood.light)
     end
-    local eyes = pair(140, 235, 62, 20, fox, 0.3)
-    if goose > 0 then eyes = eyes | pair(474, 136, 56, 16, goose, 0.5) end
+    local eyes = pair(140, 235, 70, 30, fox, 0.3)
+    if goose > 0 then eyes = eyes | pair(474, 136, 58, 24, goose, 0.5) end
     if mouse > 0 then eyes = eyes | pair(656, 312, 36, 11, mouse, 0.5) end
     shown[#shown + 1] = eyes:paint(mood.accent)
     return shown
