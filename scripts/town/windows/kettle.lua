@@ -38,6 +38,6 @@ return window.film { title = "The kettle", by = "ga", seconds = 2, drawing = fun
     or line("M212 446 Q226 456 240 446", 6, "#43200f")
   return { room, handle, lid:translate(0, -up), pot:translate(0, boils and n % 2 * -3 or 0),
     (face | sings):translate(0, boils and n % 2 * -3 or 0),
-    stroke { d = curl, width = 17, cap = "round", from = from[n], to = math.max(shares[n], 0.01),
-      fill = rgb("#fff3d6", 0.75) } }
+    stroke { d = curl, width = 20, cap = "round", taper = { 0, 90 }, profile = "round",
+      from = from[n], to = math.max(shares[n], 0.01), fill = rgb("#fff3d6", 0.75) } }
 end }

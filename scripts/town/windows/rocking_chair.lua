@@ -41,5 +41,5 @@ local swing = { [0] = 0, 3, 6, 6, 3, 0, -3, -6, -6, -3, 0, 3, 3, 3, 0, -3, -3, -
 
 return window.film { title = "Nobody", by = "pw", seconds = 8, drawing = function(_, number)
   local angle = swing[number // 2]
-  return { room, flame(-4 * angle), chair:rotate(1.3 * angle, 200, 330):translate(1.5 * angle, 0) }
+  return { room, flame(-4 * angle), chair:rotate(2 * angle, 200, 330):translate(1.5 * angle, 0) }
 end }

@@ -16,8 +16,8 @@ local lock = form("#43200f", "M-54 0 C-66 -50 -34 -76 6 -72 C46 -74 62 -34 52 8 
 --- The hair over his brow, which flies up when he drops, and falls over an eye.
 local function quiff(up)
   return lock | form("#5e2c15", "M-30 -50 C-10 %g 40 %g 56 %g C50 -36 20 -34 -8 -42 Z",
-    -84 - 30 * up,
-    -104 - 30 * up, -50 - 46 * up)
+    -84 - 16 * up,
+    -104 - 16 * up, -50 - 46 * up)
 end
 
 local rise = gouache.track({ 0, 0 }, { 9, 0 }, { 10, -4 }, { 12, 22, "outQuad" }, { 17, 24 },
