@@ -1,4 +1,4 @@
--- A father sways with a child on his feet; the child looks at us over its shoulder.
+-- A father sways with a child on his feet, who holds on to him, a little round and back.
 local couple = require "town.couple"
 local gouache = require "town.gouache"
 local window = require "town.window"
