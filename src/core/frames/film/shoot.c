@@ -226,9 +226,7 @@ static void copy_last(const job *j, frame_task *task) {
   memcpy(task->frame.digest, j->given_last.digest, sizeof task->frame.digest);
 }
 
-/* Puts the frame's number before the sentence of a failure; a run that was stopped has none. */
-static celspan_status name_failure(celspan_context *context, int64_t number,
-                                   celspan_status status) {
+celspan_status cs_shoot_failure(celspan_context *context, int64_t number, celspan_status status) {
   char sentence[sizeof context->error];
   if (status == CELSPAN_OK || status == CELSPAN_CANCELLED)
     return status;
@@ -261,7 +259,7 @@ static celspan_status make(void *user, celspan_context *context, void *carried, 
   task->frame.seconds += cs_clock_seconds() - begun;
   if (j->shoot->keeps_nothing)
     cs_context_trim(context);
-  return name_failure(context, task->frame.number, status);
+  return cs_shoot_failure(context, task->frame.number, status);
 }
 
 /* ---------------------------------------------------------------- the end */
@@ -283,7 +281,7 @@ static celspan_status give(job *j, const frame_task *task) {
                                                              : shoot->give(shoot->user, task->slot);
   if (status == CELSPAN_OK)
     j->given_last = picture_of(&task->frame);
-  return name_failure(shoot->context, task->frame.number, status);
+  return cs_shoot_failure(shoot->context, task->frame.number, status);
 }
 
 static celspan_status finish(void *user, void *carried, celspan_status status) {

@@ -97,3 +97,6 @@ typedef struct cs_shoot {
 
 /* Errors: those of `finished`; CANCELLED; NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_shoot_run(const cs_shoot *shoot);
+/* Puts the frame's number before the sentence of a failure; a run that was stopped has none.
+ * Returns the status. */
+celspan_status cs_shoot_failure(celspan_context *context, int64_t number, celspan_status status);

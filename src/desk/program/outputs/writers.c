@@ -3,9 +3,6 @@
 #include "inside/films.h"
 #include "writers/plane/plane.h"
 
-static const int usual_precision = 3;
-static const double usual_scale = 2;
-
 celspan_status cs_write_layers(celspan_context *context, const cs_request *request,
                                const cs_output *output, const cs_page *page) {
   cs_apart_contents contents = {.has_layers = cs_request_has(request, "--layers"),
@@ -17,7 +14,7 @@ celspan_status cs_write_layers(celspan_context *context, const cs_request *reque
 /* ---------------------------------------------------------------- drawings */
 
 cs_plot_desc cs_write_describe(const cs_request *request, bool is_pdf) {
-  cs_plot_desc desc = {.precision = usual_precision, .scale = usual_scale, .is_pdf = is_pdf};
+  cs_plot_desc desc = {.precision = CS_PLOT_PRECISION, .scale = CS_PLOT_SCALE, .is_pdf = is_pdf};
   int32_t size[2] = {0, 0};
   cs_request_read(request, "--flat", &desc.flat);
   cs_request_read(request, "--precision", &desc.precision);
@@ -30,21 +27,9 @@ cs_plot_desc cs_write_describe(const cs_request *request, bool is_pdf) {
 
 void cs_write_report(const celspan_context *context, const char *path, const cs_plot_desc *desc,
                      const cs_plot_facts *facts) {
-  const char *format = desc->is_pdf ? "PDF" : "SVG";
-  if (facts->is_picture)
-    cs_report_note("%s: is a picture of %d x %d pixels, because it has no vectors for this: %s",
-                   path, (int)facts->picture_width, (int)facts->picture_height,
-                   celspan_context_error(context));
-  else if (facts->pictures == 1)
-    cs_report_note("%s: what %s has no vectors for is a picture of %d x %d pixels, beside %zu "
-                   "areas",
-                   path, format, (int)facts->picture_width, (int)facts->picture_height,
-                   facts->areas);
-  else if (facts->pictures > 1)
-    cs_report_note("%s: what %s has no vectors for is %zu pictures, the largest of %d x %d "
-                   "pixels, beside %zu areas",
-                   path, format, facts->pictures, (int)facts->picture_width,
-                   (int)facts->picture_height, facts->areas);
+  char text[CS_PLOT_SAID];
+  if (cs_plot_say(context, path, desc, facts, text))
+    cs_report_note("%s", text);
 }
 
 /* Writes a file of one page. */

@@ -2,6 +2,7 @@
  * what it has. */
 #include "inside/scene.h"
 #include "lua/bind/named.h"
+#include "lua/module/film_table.h"
 #include "program/film/script.h"
 #include "program/film/service.h"
 
@@ -13,11 +14,7 @@ static const cs_film_frame *frame_of(lua_State *L) {
 /* script:scene() -> 16 bytes, equal for equal scenes; nil if a procedure draws */
 static int scene(lua_State *L) {
   const cs_film_frame *frame = frame_of(L);
-  if (cs_scene_has_procedure(frame->exposures, frame->count))
-    return 0;
-  cs_hash hash = cs_scene_hash(frame->exposures, frame->count);
-  lua_pushlstring(L, (const char *)&hash, sizeof hash);
-  return 1;
+  return cs_film_table_push_scene(L, frame->exposures, frame->count);
 }
 
 /* script:pictures_key() -> 16 bytes, equal while the files of the pictures of the scene are as they

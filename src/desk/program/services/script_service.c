@@ -18,6 +18,7 @@
 #include "lua/bind/require.h"
 #include "lua/bind/userdata.h"
 #include "lua/bind/warnings.h"
+#include "lua/module/film_table.h"
 #include "lua/module/native.h"
 #include "lua/module/subtitles.h"
 #include "process/interrupt.h"
@@ -49,22 +50,9 @@ static opened *self(lua_State *L) { return cs_service_opened(L); }
 
 /* ---------------------------------------------------------------- frames */
 
-/* Pushes the frame that was built last. The module celspan knows its values. */
+/* Pushes the frame that was built last. */
 static int push_frame(lua_State *L, const cs_film_frame *frame) {
-  luaL_requiref(L, "celspan", luaopen_celspan, 0);
-  lua_createtable(L, (int)frame->count, 0);
-  for (size_t i = 0; i < frame->count; i++) {
-    lua_createtable(L, 2, 0);
-    cs_userdata *rostrum = cs_userdata_push(L, &cs_noun_rostrum);
-    lua_newtable(L);
-    lua_setiuservalue(L, -2, 1);
-    rostrum->handle = celspan_rostrum_ref(frame->exposures[i].rostrum);
-    lua_rawseti(L, -2, 1);
-    lua_pushnumber(L, frame->exposures[i].weight);
-    lua_rawseti(L, -2, 2);
-    lua_rawseti(L, -2, (lua_Integer)i + 1);
-  }
-  return 1;
+  return cs_film_table_push_frame(L, frame->exposures, frame->count);
 }
 
 /* script:build(number): builds a frame; ends the verb if this fails. */
@@ -393,32 +381,6 @@ static int silence(lua_State *L) {
 
 /* ---------------------------------------------------------------- the film */
 
-/* Sets `marks`: a list { { name =, frame = }, ... } in the order of the frames. */
-static void set_marks(lua_State *L, const cs_film_info *info) {
-  lua_createtable(L, (int)info->mark_count, 0);
-  for (size_t i = 0; i < info->mark_count; i++) {
-    lua_createtable(L, 0, 2);
-    cs_put_text(L, "name", info->marks[i].name);
-    cs_put_integer(L, "frame", info->marks[i].frame);
-    lua_rawseti(L, -2, (lua_Integer)i + 1);
-  }
-  lua_setfield(L, -2, "marks");
-}
-
-/* Sets the fields of a celspan.film; has_poster: whether it says which frame stands for it. */
-static void set_facts(lua_State *L, const cs_film_info *info) {
-  cs_put_integer(L, "first", info->first);
-  cs_put_integer(L, "poster", info->poster);
-  cs_put_flag(L, "has_poster", info->has_poster);
-  cs_put_integer(L, "frames", info->count);
-  cs_put_number(L, "fps", info->frames_second);
-  cs_put_text(L, "title", info->title);
-  cs_put_flag(L, "has_sound", info->has_sound);
-  cs_put_text(L, "space", cs_space_words[info->space - CELSPAN_SPACE_LINEAR]);
-  cs_put_pair(L, "size", info->width, info->height);
-  set_marks(L, info);
-}
-
 static int describe(lua_State *L) {
   lua_pushliteral(L, "film of a script");
   return 1;
@@ -474,7 +436,7 @@ static int open_script(lua_State *L) {
   f->pictures.is_deep = cs_request_has(request, "--deep");
   cs_service_require(L, cs_script_open(session->context, request, path, is_silent, &f->script));
   lua_setfield(L, -2, "open");
-  set_facts(L, &f->script.film);
+  cs_film_table_put(L, &f->script.film);
   set_methods(L);
   return 1;
 }

@@ -2,6 +2,7 @@
 #include "writers/parcels/plot.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "inside/frames.h"
@@ -473,4 +474,24 @@ celspan_status cs_plot_end(cs_plot *plot, celspan_status outcome) {
     cs_mem_free(context->memory, plot->path, strlen(plot->path) + 1);
   cs_mem_free(context->memory, plot, sizeof *plot);
   return status;
+}
+
+bool cs_plot_say(const celspan_context *context, const char *path, const cs_plot_desc *desc,
+                 const cs_plot_facts *facts, char text[CS_PLOT_SAID]) {
+  const char *format = desc->is_pdf ? "PDF" : "SVG";
+  const int width = facts->picture_width, height = facts->picture_height;
+  if (facts->is_picture)
+    snprintf(text, CS_PLOT_SAID,
+             "%s: is a picture of %d x %d pixels, because it has no vectors for this: %s", path,
+             width, height, celspan_context_error(context));
+  else if (facts->pictures == 1)
+    snprintf(text, CS_PLOT_SAID,
+             "%s: what %s has no vectors for is a picture of %d x %d pixels, beside %zu areas",
+             path, format, width, height, facts->areas);
+  else
+    snprintf(text, CS_PLOT_SAID,
+             "%s: what %s has no vectors for is %zu pictures, the largest of %d x %d pixels, "
+             "beside %zu areas",
+             path, format, facts->pictures, width, height, facts->areas);
+  return facts->pictures > 0;
 }

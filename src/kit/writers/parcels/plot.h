@@ -16,6 +16,9 @@ typedef enum cs_flat {
   CS_FLAT_REGIONS /* there are only areas, which do not overlap */
 } cs_flat;
 
+/* What a drawing has unless another is asked for. */
+enum { CS_PLOT_PRECISION = 3, CS_PLOT_SCALE = 2 };
+
 typedef struct cs_plot_desc {
   cs_flat flat;
   int32_t precision;     /* digits after the point, 0 to 9; PDF has a grid of its own */
@@ -49,3 +52,9 @@ CELSPAN_CHECKED celspan_status cs_plot_add_plane(cs_plot *plot, const celspan_pl
                                                  cs_plot_facts *facts);
 /* Ends the file: it gets its name if `outcome` is OK. Returns the first failure. */
 CELSPAN_CHECKED celspan_status cs_plot_end(cs_plot *plot, celspan_status outcome);
+
+enum { CS_PLOT_SAID = CS_ERROR_SIZE + 256 };
+/* Writes a sentence on what became a picture. path: of the file. context: that of the facts. false:
+ * nothing did. */
+bool cs_plot_say(const celspan_context *context, const char *path, const cs_plot_desc *desc,
+                 const cs_plot_facts *facts, char text[CS_PLOT_SAID]);
