@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Makes celspan for web pages, which is the npm package celspan-web: one WebAssembly, its glue and
-# what it asks for.
+# what it asks for; and, for the site alone, celspan-writers.wasm, the same with the writers of SVG,
+# Lottie and planes.
 #
 #   packaging/page/build.sh BUILD FOLDER     BUILD: a folder for what is compiled; FOLDER is deleted
 #                                            first
@@ -59,20 +60,28 @@ archives=("$meson"/src/kit/page/libcelspan_page{,_memory}.a
   "$meson"/src/{kit/lua/module/libcelspan_lua,kit/plugins/type/libcelspan_type,libcelspan}.a
   "$build"/libraries/page/lib/lib{lua5.4,harfbuzz,fribidi,unibreak,expat,z}.a)
 mkdir -p "$build/linked"
-wasm-ld -o "$build/linked/celspan.wasm" --whole-archive "${archives[@]:0:2}" --no-whole-archive \
-  "${archives[@]:2}" "-L$libraries" -l{c,dlmalloc,compiler_rt,c++-noexcept,c++abi-noexcept} \
-  "${wrapped[@]/#/--wrap=}" --import-undefined --no-entry --export-table --strip-debug \
-  --export-if-defined={malloc,free,setThrew,stackSave,stackRestore,__wasm_call_ctors} \
-  -z stack-size=1048576 --initial-memory=16777216 --max-memory=2147418112 --global-base=1024
-# A function of ours that no file has would become one of JavaScript.
-lacks=$(node -p 'const linked = new WebAssembly.Module(fs.readFileSync(process.argv[1]));
-  WebAssembly.Module.imports(linked).map(({ name }) => name)
-    .filter((name) => /^(cs|celspan|lua)_/.test(name)).join(" ")' "$build/linked/celspan.wasm")
-[ -z "$lacks" ] || { echo "no file that is linked has: $lacks" >&2 && exit 1; }
-wasm-opt -Oz -Oz --enable-simd --enable-bulk-memory --enable-sign-ext --enable-mutable-globals \
-  --enable-nontrapping-float-to-int --low-memory-unused --zero-filled-memory \
-  --merge-similar-functions --strip-debug --strip-producers --strip-target-features \
-  "$build/linked/celspan.wasm" -o "$folder/celspan.wasm"
+
+# link NAME OPTION...: the file of this name; the options are for it alone.
+link() {
+  local linked=$build/linked/$1 lacks
+  wasm-ld -o "$linked" --whole-archive "${archives[@]:0:2}" "${@:2}" --no-whole-archive \
+    "${archives[@]:2}" "-L$libraries" -l{c,dlmalloc,compiler_rt,c++-noexcept,c++abi-noexcept} \
+    "${wrapped[@]/#/--wrap=}" --import-undefined --no-entry --export-table --strip-debug \
+    --export-if-defined={malloc,free,setThrew,stackSave,stackRestore,__wasm_call_ctors} \
+    -z stack-size=1048576 --initial-memory=16777216 --max-memory=2147418112 --global-base=1024
+  # A function of ours that no file has would become one of JavaScript.
+  lacks=$(node -p 'const linked = new WebAssembly.Module(fs.readFileSync(process.argv[1]));
+    WebAssembly.Module.imports(linked).map(({ name }) => name)
+      .filter((name) => /^(cs|celspan|lua)_/.test(name)).join(" ")' "$linked")
+  [ -z "$lacks" ] || { echo "no file that is linked has: $lacks" >&2 && exit 1; }
+  wasm-opt -Oz -Oz --enable-simd --enable-bulk-memory --enable-sign-ext --enable-mutable-globals \
+    --enable-nontrapping-float-to-int --low-memory-unused --zero-filled-memory \
+    --merge-similar-functions --strip-debug --strip-producers --strip-target-features \
+    "$linked" -o "$folder/$1"
+}
+link celspan.wasm
+link celspan-writers.wasm "$meson/src/kit/page/libcelspan_writers.a" \
+  --wrap=cs_file_{create,commit,again} # src/kit/page/writers.c
 cp "$top"/packaging/page/npm/{index.d.ts,README.md} "$meson/src/kit/lua/module/more.json" "$folder"
 for name in engine render; do # without the lines that are comments
   perl -0pe 's{^ */\*\*.*?\*/\n}{}gms; s{^ *//.*\n}{}gm' "$top/packaging/page/$name.mjs" \

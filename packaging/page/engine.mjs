@@ -64,8 +64,8 @@ class Files {
 }
 
 /** What the WebAssembly asks of JavaScript. `of()` has its exports, when there are some; `most()` is
- * the most memory that it may have. */
-const imports = (module, of, memory, files, now, most) => {
+ * the most memory that it may have; written: what engine.write returns, and its beat. */
+const imports = (module, of, memory, files, now, most, written) => {
   const jump = {}; // what longjmp throws
   let high = 0; // the upper half of a result with 64 bits
   const time = (at, unit) => {
@@ -95,6 +95,8 @@ const imports = (module, of, memory, files, now, most) => {
     find: (path) => files.find(memory.text(path)),
     size: (file) => files.bytes[file].length,
     read: (file, at, to, size) => memory.bytes().set(files.bytes[file].subarray(at, at + size), to),
+    beat: (share) => written.beat(share), note: (at) => written.notes.push(memory.text(at)),
+    save: (at, size) => { written.bytes = memory.bytes().slice(at, at + size); },
   };
   const env = {
     _emscripten_throw_longjmp: () => { throw jump; },
@@ -145,7 +147,8 @@ export const open = async (given, { files = {}, now = () => performance.now() } 
     text: (at) => decoder.decode(memory.bytes().subarray(at, memory.bytes().indexOf(0, at))),
     put: (at, value) => (new DataView(x.memory.buffer).setInt32(at, value, true), 0),
   };
-  const given_to = imports(module, () => x, memory, table, now, () => room_most);
+  const written = {};
+  const given_to = imports(module, () => x, memory, table, now, () => room_most, written);
   x = (await WebAssembly.instantiate(module, given_to)).exports;
   x.__wasm_call_ctors();
 
@@ -315,6 +318,16 @@ export const open = async (given, { files = {}, now = () => performance.now() } 
         const [address, size] = new Uint32Array(x.memory.buffer, at, 2);
         return memory.bytes().slice(address, address + size);
       });
+    },
+    /** The file that `celspan render -o film.KIND` writes, where the module is celspan-writers.wasm:
+     * "svg", of the frame; "json" (Lottie) or "plane", of the film. Returns its bytes and, in `notes`,
+     * sentences on what it could not keep. beat: gets the share that is done. */
+    write(kind, width, height, beat = () => {}) {
+      expectSize(width, height);
+      if (!x.write) throw new Error("celspan: the module is celspan.wasm, which has no writers");
+      Object.assign(written, { beat, notes: [] });
+      lend([`film.${kind}`], (path) => check(x.write(page, path, width, height)));
+      return { bytes: written.bytes, notes: written.notes };
     },
     /** The digest of the frame, as `celspan render --hash` prints it. */
     digest(width, height) {

@@ -25,10 +25,10 @@ const pack = (bytes) => ({
     [zlib.constants.BROTLI_PARAM_QUALITY]: 11, [zlib.constants.BROTLI_PARAM_LGWIN]: 24,
     [zlib.constants.BROTLI_PARAM_SIZE_HINT]: bytes.length } }).length });
 
-console.log("file            bytes      gzip    brotli");
-for (const name of ["celspan.wasm", "engine.mjs", "more.json"]) {
+console.log("file                    bytes      gzip    brotli");
+for (const name of ["celspan.wasm", "celspan-writers.wasm", "engine.mjs", "more.json"]) {
   const bytes = fs.readFileSync(`${folder}/${name}`), packed = pack(bytes);
-  console.log(name.padEnd(13), ...[bytes.length, packed.gzip, packed.brotli]
+  console.log(name.padEnd(20), ...[bytes.length, packed.gzip, packed.brotli]
     .map((size) => String(size).padStart(9)));
   if (name === "celspan.wasm")
     for (const way of Object.keys(MOST)) check(`${name} by ${way}`, packed[way], MOST[way]);

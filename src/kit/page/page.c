@@ -13,29 +13,11 @@
 #include "common/hits.h"
 #include "common/made.h"
 #include "lua/bind/named.h"
+#include "page/page.h"
 #include "page/picture.h"
-
-/* JavaScript calls them: no header declares them. */
-#pragma GCC diagnostic ignored "-Wmissing-prototypes"
-#define TO_PAGE(name) __attribute__((export_name(#name)))
 
 /* A tab has less memory than a machine. */
 enum { CACHED_BYTES = 64 << 20 };
-
-typedef struct page {
-  celspan_context *context;
-  lua_State *L; /* with the film at 1, when a script has run, and perhaps its sounds at 2 */
-  celspan_film film;
-  celspan_parameter parameter; /* the one asked for last */
-  celspan_sound sound;         /* likewise; of those at 2 */
-  size_t sound_count;
-  celspan_frame_desc frame;
-  celspan_coding coding;
-  bool has_line; /* the line of `keep` made something */
-  char *printed; /* NULL: nothing */
-  size_t printed_size;
-  unsigned char *png; /* the latest; NULL: none */
-} page;
 
 /* What there is no memory for is not shown. */
 static void show(void *user, const char *text, size_t size) {

@@ -8,12 +8,14 @@
     return cs_caller_error(L, "this celspan has no %s: it is that of web pages", what);            \
   }
 
+#ifndef CS_HAS_PLANES /* celspan-writers.wasm has them */
 #define LACKS_PLANES(name) LACKS(name, "planes")
 LACKS_PLANES(cs_plane_make)
 LACKS_PLANES(cs_plane_open_file)
 LACKS_PLANES(cs_parcels_list)
 
 void cs_plane_open(lua_State *L) { (void)L; }
+#endif
 
 LACKS(cs_render_make, "celspan.render")
 
