@@ -247,7 +247,9 @@ function keepFile({ type, info, content }, above) {
 function writeLive() {
   const copy = (from, to) => fs.cpSync(from, path.join(folder, to), { recursive: true });
   copy(path.join(__dirname, "live"), "live");
-  for (const name of ["celspan.wasm", "more.json", "LICENSES"]) copy(`${web}/${name}`, `live/${name}`);
+  for (const name of ["celspan.wasm", "celspan-writers.wasm", "more.json", "LICENSES"]) {
+    copy(`${web}/${name}`, `live/${name}`);
+  }
   copy(`${web}/engine.mjs`, "live/engine.js"); // which servers know as a script
   for (const name of READ) {
     copy(`scripts/${name}`, `live/files/${name.replace("demo/", "")}`);

@@ -12,15 +12,17 @@
 // that takes too long is ended, and the next question begins another one. Nothing is loaded before
 // the first question.
 const SECONDS = 8; // for one picture
+export const WRITERS = "celspan-writers.wasm"; // the engine that has engine.write, too
 const NO_ENGINE = "This browser has no WebAssembly, or the page forbids it: the picture stays still.";
 
-let worker, module, last = 0;
+let worker, last = 0;
+const modules = {}; // promises, by the names of their files
 const waiting = new Map(); // the questions without an answer, by their numbers
 const files = new Map(); // contents that readers gave, by path
 
-const compiled = async () => {
+const compiled = async (name) => {
   if (typeof WebAssembly !== "object") throw new Error(NO_ENGINE);
-  const answer = await fetch(new URL("celspan.wasm", import.meta.url)).catch(({ message }) =>
+  const answer = await fetch(new URL(name, import.meta.url)).catch(({ message }) =>
     ({ status: message }));
   if (!answer.ok) throw new Error(`The engine could not be loaded: ${answer.status}.`);
   const bytes = await answer.arrayBuffer();
@@ -72,10 +74,14 @@ const send = (question) => {
   worker.postMessage(question);
 };
 
+/** The compiled engine of a file, which is loaded once. */
+export const prepare = (name) =>
+  modules[name] ??= compiled(name).catch((error) => { delete modules[name]; throw error; });
+
 const ask = async (question, progress) => {
-  module ??= compiled().catch((error) => { module = null; throw error; });
+  const loading = prepare(question.call === "write" ? WRITERS : "celspan.wasm");
   worker ??= begin(); // is loaded while the engine is compiled
-  const whole = { id: ++last, module: await module, ...question };
+  const whole = { id: ++last, module: await loading, ...question };
   return new Promise((resolve, reject) => {
     waiting.set(whole.id, { question: whole, resolve, reject, progress });
     send(whole);
@@ -107,6 +113,6 @@ export const film = (source, { name = "film.lua", set = {} } = {}) => {
       throw placed(error, name);
     }
   };
-  return Object.fromEntries(["draw", "at", "about", "digest", "sounds", "save"]
+  return Object.fromEntries(["draw", "at", "about", "digest", "sounds", "save", "write"]
     .map((call) => [call, put(call)]));
 };

@@ -5,6 +5,7 @@ import { open } from "./engine.js";
 const LIMITS = { steps: 5e7, memory: 128 * 2 ** 20 };
 
 let engine, ready = Promise.resolve(), running = ""; // running: the script whose film the engine has
+let hasWriters = false; // the engine, which then stays
 let more, names; // the second file of Lua modules; the names of files/
 const asked = new Set(), given = {}; // paths; files of readers
 
@@ -94,14 +95,18 @@ const answer = async (question) => {
 const reply = async ({ module, ...question }) => {
   const { id } = question;
   try {
-    engine ??= await open(module, { files: given });
+    if (!engine || question.call === "write" && !hasWriters) {
+      engine = await open(module, { files: given });
+      hasWriters = question.call === "write";
+      running = "";
+      asked.clear();
+    }
     const said = await answer(question);
     postMessage({ id, said }, said.pixels ? [said.pixels] : []);
   } catch (error) {
     postMessage({ id, error: error.message });
     if (error.status) return; // celspan's own sentence; otherwise the next question gets another engine
     engine = undefined;
-    asked.clear();
   }
 };
 

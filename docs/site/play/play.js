@@ -1,20 +1,19 @@
 // The playground: a live script of its own (live/live.js), with examples, values, files that are
 // dropped, its address, and what can be saved of it.
 import { element } from "../live/field.js";
-import { film, give, stop } from "../live/film.js";
+import { WRITERS, film, give, prepare, stop } from "../live/film.js";
 import { Live } from "../live/live.js";
 import { RATE, mix } from "./export.js";
 import { fragment, shared } from "./share.js";
 
 const PATIENCE = 400; // milliseconds until a still frame gets its digest
 const MOST_TEXT = 1e6, MOST_FILE = 2 ** 28; // bytes
-// What this page saves, and what the program alone does.
-const HERE = { png: "Picture (PNG)", mp4: "Film with sound (MP4)", webm: "Film with sound (WebM)",
-               apng: "Film (APNG)" };
+const KINDS = { png: "Picture (PNG)", mp4: "Film with sound (MP4)", webm: "Film with sound (WebM)",
+                apng: "Film (APNG)", svg: "Drawing (SVG)", json: "Film (Lottie)", plane: "Film (plane)" };
 const VIDEOS = ["mp4", "webm"];
-const THERE = { svg: "Drawing (SVG)", json: "Lottie", plane: "Plane" };
-const BY_PROGRAM = "This page cannot write it. The program can, by the command below.";
-const STILLS = ["png", "svg"];
+const WRITTEN = ["svg", "json", "plane"]; // by an engine of its own
+const LOADING = "The writers of SVG, Lottie and planes are loaded.";
+const STILLS = ["png", "svg"], SIZELESS = ["json", "plane"];
 const SCALES = [1, 2, 0.5, 0.25];
 
 const at = id => document.getElementById(id);
@@ -73,10 +72,12 @@ function printDigest() {
 function command() {
   const kind = at("kind").value, part = ` --frames ${live.frame}`;
   const values = Object.entries(live.set).map(pair => ` --set ${quoted(pair.join("="))}`);
-  const common = `celspan render ${live.name}${values.join("")} --size ${at("size").value}`;
+  const common = `celspan render ${live.name}${values.join("")}`;
+  const sized = ` --size ${at("size").value}`;
   const output = `${STILLS.includes(kind) ? part : ""} -o film.${kind}`;
-  const text = `${common}${output}\n${common}${part} --hash`;
-  at("save").disabled = kind in THERE;
+  const text = `${common}${SIZELESS.includes(kind) ? "" : sized}${output}
+${common}${sized}${part} --hash`;
+  at("save").disabled = false;
   if (shown === text + live.field.text) return;
   shown = text + live.field.text;
   at("command").textContent = text;
@@ -132,20 +133,32 @@ async function soundOf({ count, fps }) {
 
 const megabytes = bytes => `${(bytes / 1e6).toFixed(2)} MB`;
 
+/** A file of another engine, and what is said of it. */
+async function write(kind, width, height) {
+  say(LOADING);
+  await prepare(WRITERS);
+  say("");
+  if (wasStopped) throw new Error(STOPPED);
+  return now().write({ kind, frame: live.frame, width, height },
+    share => { at("progress").value = share; });
+}
+
 const STOPPED = "Nothing was saved: it was stopped.";
 
 export async function save(kind = at("kind").value) {
   const [width, height] = size(), { made, frame } = live;
+  if (WRITTEN.includes(kind)) return write(kind, width, height);
   const { first, count } = kind === "png" ? { first: frame, count: 1 } : made;
   const sound = VIDEOS.includes(kind) ? await soundOf(made) : null;
   if (wasStopped) throw new Error(STOPPED);
-  return now().save({ kind, width, height, sound, first, count },
+  const blob = await now().save({ kind, width, height, sound, first, count },
     share => { at("progress").value = share; });
+  return { blob, notes: [] };
 }
 
 async function saveOrStop() {
   wasStopped = isSaving;
-  if (isSaving) return stop("save", STOPPED);
+  if (isSaving) return ["save", "write"].forEach(call => stop(call, STOPPED));
   const kind = at("kind").value;
   isSaving = at("kind").disabled = true;
   live.pause();
@@ -154,11 +167,11 @@ async function saveOrStop() {
   at("progress").hidden = false;
   at("progress").value = 0;
   try {
-    const blob = await save(kind), name = `film.${kind.replace("apng", "png")}`;
+    const { blob, notes } = await save(kind), name = `film.${kind.replace("apng", "png")}`;
     const link = element("a", { href: URL.createObjectURL(blob), download: name });
     link.click();
     setTimeout(() => URL.revokeObjectURL(link.href), 6e4);
-    say(`${name} was saved: ${megabytes(blob.size)}.`);
+    say([`${name} was saved: ${megabytes(blob.size)}.`, ...notes].join("\n"));
   } catch (error) { say(error.message); }
   isSaving = at("kind").disabled = false;
   at("save").textContent = "Save";
@@ -221,13 +234,9 @@ async function showExamples() {
   };
 }
 
-at("kind").append(...Object.entries({ ...HERE, ...THERE }).map(([kind, name]) =>
+at("kind").append(...Object.entries(KINDS).map(([kind, name]) =>
   new Option(name, kind)));
-at("kind").onchange = () => {
-  say(at("kind").value in THERE ? BY_PROGRAM : "");
-  command();
-};
-at("size").onchange = command;
+at("kind").onchange = at("size").onchange = command;
 at("save").onclick = saveOrStop;
 at("share").onclick = share;
 at("files").onchange = () => take(at("files").files);

@@ -25,6 +25,12 @@ export const calls = {
       return { ...sound, bytes };
     });
   },
+  /** The file of engine.write, with notes on what it could not keep. */
+  write({ kind, frame, width, height, ...question }, { build, engine, progress }) {
+    build({ ...question, frame });
+    const { bytes, notes } = engine.write(kind, width, height, progress);
+    return { blob: new Blob([bytes]), notes };
+  },
   /** A file of `count` frames from `first` on. sound: two channels, or null. */
   async save({ kind, first, count, width, height, sound, ...question }, all) {
     const { build, engine, progress } = all;

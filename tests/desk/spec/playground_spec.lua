@@ -31,6 +31,12 @@ return film { size = { %d, %d }, fps = %d, frames = %d,
   end }
 ]]):format(WIDTH, HEIGHT, FPS, SECONDS * FPS, ONSET, ONSET * FPS)
 
+-- What a plane cannot contain.
+local PROCEDURE = [[return film { size = { 64, 64 }, frames = 2, frame = function()
+  return { scanline { bounds = { 0, 0, 64, 64 },
+    spans = function() return { { 0, 64, "red" } } end } }
+end }]]
+
 local bench
 
 setup(function()
@@ -337,6 +343,70 @@ describe("the page of the playground #plain", function()
     assert.equal(out:match "[^\n]+", seen.digest)
     assert.equal("There is no tone.wav: drop the file on this page.", seen.said[1])
     assert.is_truthy(seen.said[2]:find "^film.mp4 was saved: %d", seen.said[2])
+  end)
+
+  it("saves drawings, Lottie and planes as the program does, by an engine that is loaded for it",
+    function()
+    local seen = visit(([=[
+      const change = (name, value) => page.get(`{ const one = document.querySelector("${name}");
+        one.value = "${value}"; one.dispatchEvent(new Event("input"));
+        one.dispatchEvent(new Event("change")); } 0`);
+      const loaded = () => site.asked.filter(name => name.includes("writers")).length;
+      const save = async kind => {
+        await change("#kind", kind);
+        await page.get(`document.querySelector("#save").click()`);
+        await page.until(`document.querySelector("#save").textContent === "Save"`);
+        return { command: await text("#command"), said: await text("#said"),
+          bytes: await page.get(`new Promise(done => {
+            const reader = new FileReader();
+            reader.onload = () => done(reader.result.replace(/.*,/, ""));
+            reader.readAsDataURL(saved);
+          })`) };
+      };
+      await page.get(`{ const own = URL.createObjectURL, said = document.querySelector("#said");
+        globalThis.saved = new Blob([]), globalThis.heard = [];
+        URL.createObjectURL = blob => { saved = blob; return own.call(URL, blob); };
+        new MutationObserver(() => heard.push(said.textContent)).observe(said, { childList: true });
+        } 0`);
+      await put(source);
+      await page.until(`document.querySelector("#values select")`);
+      await change("#values [type=range]", 45);
+      await page.until(`/radius=45/.test(document.querySelector("#command").textContent)`);
+      await change(".bar [type=range]", 100);
+      await page.until(`/--frames 100/.test(document.querySelector("#command").textContent)`);
+      await save("png");
+      const answer = { before: loaded() };
+      for (const kind of ["svg", "json", "plane"]) answer[kind] = await save(kind);
+      Object.assign(answer, { after: loaded(), heard: await page.get("heard") });
+      await put(`%s`);
+      await page.until(`!document.querySelector("#values label")`);
+      answer.refused = await save("plane");
+      answer.picture = await save("svg");
+      return answer;]=]):format(PROCEDURE))
+    assert.same({ 0, 1 }, { seen.before, seen.after })
+    assert.is_truthy(table.concat(seen.heard, "\n"):find("are loaded", 1, true))
+    local function made(one)
+      local code, _, err = bench:celspan_inside("%s", one.command:match "^celspan ([^\n]*)")
+      return code, err:gsub("celspan: ", "")
+    end
+    for _, kind in ipairs { "svg", "json", "plane" } do
+      keep("page." .. kind, seen[kind].bytes)
+      local code, notes = made(seen[kind])
+      assert.equal(0, code, notes)
+      assert.is_true(bench:read("film." .. kind) == bench:read("page." .. kind), kind)
+      for note in seen[kind].said:gmatch "\n([^\n]+)" do
+        assert.is_truthy(notes:find(note, 1, true), note)
+      end
+    end
+    assert.is_truthy(seen.json.said:find("\nfilm.json: the sound of the film is left out", 1, true))
+    bench:write("film.lua", PROCEDURE)
+    local code, fault = made(seen.refused)
+    assert.is_true(code ~= 0 and fault:find(seen.refused.said, 1, true) ~= nil, seen.refused.said)
+    code, fault = made(seen.picture)
+    assert.equal(0, code, fault)
+    assert.is_truthy(seen.picture.said:find("\n" .. fault:match "film.svg: is a picture[^\n]*",
+      1, true), seen.picture.said)
+    bench:write("film.lua", FILM)
   end)
 
   it("shares scripts by addresses, and says which are damaged or of another version", function()
