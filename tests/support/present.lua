@@ -80,4 +80,16 @@ function present.sanitizer() return contains "__(asan|tsan)_init" end
 --- The folder of pictures and drawings for tests that need some; nil if there is none.
 present.material = os.getenv "CELSPAN_MATERIAL"
 
+--- Whether `./run docs site` can be made: with markdown-it of node and pygments of python3.
+function present.site()
+  return present.program("node", "python3") and ends_well [[python3 -c 'import pygments' &&
+    NODE_PATH=/usr/share/nodejs node -e 'require("markdown-it")']]
+end
+
+--- The folder that `./run web` has made; nil: there is none.
+function present.web()
+  local folder = os.getenv "CELSPAN_WEB" or "out/web"
+  return ends_well(("[ -e '%s/celspan.wasm' ]"):format(folder)) and folder or nil
+end
+
 return present

@@ -4,15 +4,13 @@ local markdown = require "tests.support.markdown"
 local present = require "tests.support.present"
 local workbench = require "tests.support.workbench"
 
-local WEB = os.getenv "CELSPAN_WEB" or "out/web"
+local WEB = present.web()
 local AXE = "out/npm/node_modules/axe-core/axe.min.js"
-local LIBRARIES = [[NODE_PATH=/usr/share/nodejs node -e 'require("markdown-it")' 2>/dev/null &&
-  python3 -c 'import pygments' 2>/dev/null]]
 
-if not present.program("node", "python3", "chromium") or not os.execute(LIBRARIES) then
+if not present.program "chromium" or not present.site() then
   return pending "there is no node with markdown-it, no python3 with pygments, or no chromium"
 end
-if not present.program "cmp" or not io.open(WEB .. "/celspan.wasm") then
+if not WEB then
   return pending "there is no out/web: ./run web makes it"
 end
 

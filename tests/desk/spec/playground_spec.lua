@@ -3,15 +3,13 @@ local browsing = require "tests.support.browsing"
 local present = require "tests.support.present"
 local workbench = require "tests.support.workbench"
 
-local WEB = os.getenv "CELSPAN_WEB" or "out/web"
+local WEB = present.web()
 local AXE = "out/npm/node_modules/axe-core/axe.min.js"
-local LIBRARIES = [[NODE_PATH=/usr/share/nodejs node -e 'require("markdown-it")' 2>/dev/null &&
-  python3 -c 'import pygments' 2>/dev/null]]
 
 if not present.program("node", "chromium", "ffmpeg", "ffprobe") then
   return pending "there is no node, no chromium or no ffmpeg"
 end
-if not io.open(WEB .. "/celspan.wasm") then
+if not WEB then
   return pending "there is no out/web: ./run web makes it"
 end
 
@@ -271,7 +269,7 @@ describe("the playground #plain", function()
   end)
 end)
 
-if not present.program "python3" or not os.execute(LIBRARIES) then
+if not present.site() then
   return pending "there is no markdown-it of node, or no pygments of python3"
 end
 
@@ -309,7 +307,7 @@ describe("the page of the playground #plain", function()
     assert.equal(0, code, err)
   end)
 
-  it("draws with values, prints a command and its digest, and reads dropped files", function()
+  it("draws with values, prints a command, reads dropped files, and stops what is saved", function()
     local seen = visit [=[
       await put(source);
       await page.until(`document.querySelector("#values select")`);
@@ -331,11 +329,17 @@ describe("the page of the playground #plain", function()
       await give("tone.wav", fs.readFileSync(folder + "/tone.wav"));
       await page.until(`/can read/.test(document.querySelector("#said").textContent)`);
       await save();
-      await page.get(`document.querySelector("#size").value = "384x216";
-        document.querySelector("#save").click()`);
-      await page.until(`document.querySelector("#progress").value > 0`);
-      await page.get(`document.querySelector("#save").click()`);
-      await page.until(`/stopped/.test(document.querySelector("#said").textContent)`);
+      for (const [kind, frame] of [["mp4", 77], ["json", 78]]) { // a picture waits meanwhile
+        await page.get(`document.querySelector("#size").value = "384x216";
+          document.querySelector("#kind").value = "${kind}";
+          document.querySelector("#save").click()`);
+        await page.until(`document.querySelector("#progress").value > 0`);
+        await page.get(`{ const place = document.querySelector(".bar [type=range]");
+          place.value = ${frame}; place.dispatchEvent(new Event("input")); } 0`);
+        await page.get(`document.querySelector("#save").click()`);
+        await page.until(`/stopped/.test(document.querySelector("#said").textContent)
+          && document.querySelector(".bar output").textContent.startsWith("${frame}/")`);
+      }
       return answer;]=]
     assert.same({ "color", "checkbox", "range", "select-one" }, seen.kinds)
     local code, out, err = bench:celspan_inside("%s", seen.command:match "\ncelspan ([^\n]*)$")

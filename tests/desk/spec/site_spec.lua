@@ -7,10 +7,8 @@ local system = require "tests.support.system"
 local workbench = require "tests.support.workbench"
 
 local AXE = "out/npm/node_modules/axe-core/axe.min.js"
-local LIBRARIES = [[NODE_PATH=/usr/share/nodejs node -e 'require("markdown-it")' 2>/dev/null &&
-  python3 -c 'import pygments' 2>/dev/null]]
 
-if not present.program("node", "python3") or not os.execute(LIBRARIES) then
+if not present.site() then
   return pending "there is no node with markdown-it, or no python3 with pygments"
 end
 
