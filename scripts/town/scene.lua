@@ -13,7 +13,8 @@ local storm, snow = moods.storm, moods.snow
 local HORIZON = "#93a5ae"
 
 local sky = rect { 0, 0, W, H, fill = linear { from = { 0, 0 }, to = { 0, 430 },
-  { 0, storm.ink }, { 0.3, storm.sky[1] }, { 0.5, storm.sky[2] }, { 0.75, mix(storm.sky[2], HORIZON, 0.4) }, { 1, HORIZON } } }
+  { 0, storm.ink }, { 0.3, storm.sky[1] }, { 0.5, storm.sky[2] },
+  { 0.75, mix(storm.sky[2], HORIZON, 0.4) }, { 1, HORIZON } } }
 
 --- The hill from a line to the foot of the picture.
 local function hill(line, fill) return path { d = line .. " V1080 H0 Z", fill = fill } end
@@ -53,7 +54,8 @@ end
 local function drift(to, y)
   local points = {}
   for i = 0, 16 do
-    points[i + 1] = { 400 + (to - 400) * i / 16, y + 4 * math.sin(2.3 * i), 10 + 4 * math.sin(1.7 * i) }
+    points[i + 1] = { 400 + (to - 400) * i / 16, y + 4 * math.sin(2.3 * i),
+      10 + 4 * math.sin(1.7 * i) }
   end
   return stroke { points = points, degree = 2, cap = "round", fill = "#9db0ba" }
 end
@@ -64,7 +66,8 @@ local tram = path { fill = "#2a3b40", d = "M904 772 Q904 764 914 764 H996 Q1006 
   | path { fill = "#6f3a30", d = "M904 824 H1006 V846 H904 Z" }
   | rect { 904, 822, 102, 4, fill = "#c9a36a" } | rect { 900, 758, 110, 8, radius = 4,
     fill = snow.sky[2] }
-  | circle { 955, 835, 5, fill = "#ffe9b0" } | rect { 934, 770, 42, 12, radius = 3, fill = "#ffe2a0" }
+  | circle { 955, 835, 5, fill = "#ffe9b0" }
+  | rect { 934, 770, 42, 12, radius = 3, fill = "#ffe2a0" }
   | stroke { width = 2, fill = storm.ink, d = "M930 758 L955 736 L980 758 M880 734 H1030" }
   | rect { 916, 846, 22, 8, radius = 3, fill = storm.ink }
   | rect { 972, 846, 22, 8, radius = 3, fill = storm.ink }
@@ -86,7 +89,8 @@ local function prints()
   return union(list)
 end
 
-local kennel = ellipse { 426, 979, 56, 7, fill = "#c9d9e4" } | polygon { { 388, 980 }, { 388, 926 }, { 422, 902 }, { 456, 926 }, { 456, 980 },
+local kennel = ellipse { 426, 979, 56, 7, fill = "#c9d9e4" }
+  | polygon { { 388, 980 }, { 388, 926 }, { 422, 902 }, { 456, 926 }, { 456, 980 },
     fill = "#3a4a50" }
   | stroke { width = 11, cap = "round", join = "round", fill = "#9fb4c2",
     points = { { 382, 930 }, { 422, 902 }, { 462, 930 } } }
@@ -105,7 +109,8 @@ local awning = path { fill = snow.accent, d = "M592 774 H708 L718 790 a9.6 7 0 0
   .. "a9.6 7 0 0 1 -19.2 0 a9.6 7 0 0 1 -19.1 0 Z" }
 
 --- Signs that hang from an arm of iron: a pretzel, a mug, and a reel of film.
-local signs = stroke { width = 2, fill = "#0b1012", d = "M1194 744 h18 M752 744 h-14 M1516 744 h20" }
+local signs = stroke { width = 2, fill = "#0b1012",
+    d = "M1194 744 h18 M752 744 h-14 M1516 744 h20" }
   | stroke { width = 3, fill = "#d9a441", cap = "round", d = "M741 767 C729 771 727 752 736 752 "
     .. "C745 752 744 763 736 769 M741 767 C753 771 755 752 746 752 C737 752 738 763 746 769" }
   | path { fill = "#d9a441", d = "M1202 752 h13 v18 h-13 Z" }
@@ -140,7 +145,8 @@ for _, place in ipairs { { 462, 862, 24, 42 }, { 716, 860, 20, 42 }, { 854, 858,
 end
 
 --- A snowman and a fence, in the snow in front.
-local snowman = ellipse { 804, 1030, 36, 5, fill = "#a9c0d0" } | circle { 800, 1004, 27, fill = "#b7cad8" }
+local snowman = ellipse { 804, 1030, 36, 5, fill = "#a9c0d0" }
+  | circle { 800, 1004, 27, fill = "#b7cad8" }
   | circle { 797, 1002, 26, fill = snow.sky[3] }
   | circle { 800, 962, 19, fill = "#b7cad8" } | circle { 798, 960, 18, fill = snow.sky[3] }
   | polygon { { 812, 962 }, { 834, 968 }, { 811, 970 }, fill = "#d98a3a" }

@@ -205,7 +205,7 @@ describe("the site #plain", function()
       refused(menu, { ["README.md"] = "# celspan\n\nText.\n", ["docs/a.md"] = "# A\n\nText.\n" }))
   end)
 
-  it("plays the film or the plane of a work where it was made, and else shows its picture", function()
+  it("plays the film or plane of a work where it was made, and else shows its picture", function()
     bench:inside("mkdir -p works/docs/pictures/works works/out/docs/works")
     bench:inside(("cp -r '%s/docs/site' works/docs/site"):format(root))
     bench:write("works/docs/site/menu.json", '{ "Begin": { "README.md": "celspan" } }')
