@@ -12,13 +12,13 @@ local MINUTES = 60 * 24 * 365
 
 local lives = {
   { name = "Mouse", pulse = 600, years = 3, from = 0.4, colour = RED, label = { 150, 318 } },
-  { name = "Cat", pulse = 140, years = 15, from = 1.8, colour = "#f0803c",
+  { name = "Cat", pulse = 140, years = 15, from = 1.4, colour = "#f0803c",
     label = { 312, 470 } },
-  { name = "Elephant", pulse = 30, years = 65, from = 3.2, colour = "#7d4a7a",
+  { name = "Elephant", pulse = 30, years = 65, from = 2.4, colour = "#7d4a7a",
     label = { 664, 548 } },
-  { name = "You", pulse = 70, years = 80, from = 7.8, colour = INK },
+  { name = "You", pulse = 70, years = 80, from = 6.8, colour = INK },
 }
-local BILLION, YOURS = 5.2, 7.6 -- when rectangles become squares, and when you come
+local BILLION, YOURS = 4.2, 6.6 -- when rectangles become squares, and when you come
 local FLOOR, LEFT, ACROSS, UP = 640, 92, 13.2, 0.7 -- units for a year, and for a beat a minute
 
 --- The beats of a life, in billions.
@@ -150,7 +150,8 @@ local function alive(art, life, i, x, y, w, h, time)
       * (88 + 16 * beats)):translate(x + w - 82, y + h - 74)
   elseif out > 0 then
     art[#art + 1] = animals[life.name](x, y, w, h, out, time, life.colour)
-    art[#art + 1] = eye_of(x + w - 26, y + 40, time + 0.4 * i):fade(math.min(1, out))
+    local inwards = i < 3 and 26 or 14 -- the elephant has figures there
+    art[#art + 1] = eye_of(x + w - inwards, y + 40, time + 0.4 * i):fade(math.min(1, out))
   end
 end
 
@@ -171,11 +172,11 @@ local function headline(art, time)
 end
 
 local function hearts()
-  local sound = score(10.8)
+  local sound = score(9.8)
   local notes = { { 180, 0.16, 0.07 }, { 92, 0.4, 0.16 }, { 46, 0.75, 0.4 }, { 62, 0.8, 0.3 } }
   for i, life in ipairs(lives) do
     local hertz, volume, length = table.unpack(notes[i])
-    local stop = i == 3 and BILLION + 0.5 or i < 3 and lives[i + 1].from or 10.5
+    local stop = i == 3 and BILLION + 0.5 or i < 3 and lives[i + 1].from or 9.5
     for time = life.from, stop, 60 / life.pulse do
       sound:add(time, score.thump(hertz, length), volume)
       if i > 1 then sound:add(time + 13 / life.pulse, score.thump(hertz * 0.9, length),
@@ -224,5 +225,5 @@ local function frame(f)
   return cel(art)
 end
 
-return film { title = "A billion beats", size = { W, H }, fps = FPS, duration = 10.8,
+return film { title = "A billion beats", size = { W, H }, fps = FPS, duration = 9.8,
   sound = hearts(), frame = frame }

@@ -147,6 +147,16 @@ local function fried(time)
   return union { pan, fallen }:rotate(16):translate(W / 2, 1160 + tossed:at(time))
 end
 
+local hat = above(shell(900), 10):scale(0.46)
+local HAT_OFF, HAT_LANDS = 4.3, 4.8 -- it stays behind
+
+--- The hat alone: it flies up, turns over once, and rocks on the ground until it is still.
+local function lost(time)
+  local u, since = motion.span(time, HAT_OFF, HAT_LANDS - HAT_OFF), math.max(0, time - HAT_LANDS)
+  local rocks = 15 * math.sin(22 * since) * math.exp(-7 * since)
+  return hat:rotate(rocks - 360 * u):translate(50 - 90 * u, -410 + 840 * u - 1500 * u * (1 - u))
+end
+
 --- A chick with a piece of its shell for a hat; aside: how far it has turned to the right.
 local function chick(time, aside)
   local blink = (time < 3.9 and time % 1.5 > 1.38) and 0.1 or 1
@@ -160,8 +170,9 @@ local function chick(time, aside)
     eyes[i] = eyes[i]:scale(1, blink, x, -60)
   end
   local face = (union(eyes) | beak):scale(1 - 0.35 * aside, 1):translate(130 * aside, 0)
-  local hat = above(shell(900), 10):scale(0.46):rotate(18 - 30 * aside)
-  return ellipse { 0, 0, 262, 260, fill = YOLK } | face | hat:translate(74 - 60 * aside, -208)
+  local head = ellipse { 0, 0, 262, 260, fill = YOLK } | face
+  if time >= HAT_OFF then return head end
+  return head | hat:rotate(18 - 30 * aside):translate(74 - 60 * aside, -208)
 end
 
 --- Two legs from the shell down to the ground, which step when it runs; out: how far they are out.
@@ -200,8 +211,9 @@ local function hatched(time)
     + (run > 0 and 3 * math.sin(26 * run) or 0)
   local stands = body:scale(1 + pressed, 1 - pressed, 0, 450):rotate(lean, 0, 450)
     :translate(0, -110 * out + math.max(0, height))
-  return (legs(out, run):translate(0, -110 * out) | stands)
+  local chick_and_shell = (legs(out, run):translate(0, -110 * out) | stands)
     :translate(to_the_right:at(time), math.min(0, height))
+  return time < HAT_OFF and chick_and_shell or chick_and_shell | lost(time)
 end
 
 --- Free: the egg rocks, cracks, throws off its lid, and goes its way.
@@ -279,6 +291,10 @@ local function foley()
   end
   for step = 0, 5 do
     sound:add(2 * CARD + 4.2 + 0.08 * step, score.click(0.9, 0.05), 0.4, 0.18 * step)
+  end
+  sound:add(2 * CARD + HAT_OFF, score.slide(700, 320, 0.4), 0.16)
+  for bump = 0, 2 do
+    sound:add(2 * CARD + HAT_LANDS + 0.13 * bump, score.thump(190, 0.1), 0.5 * 0.6 ^ bump)
   end
   pluck(2 * CARD + 4.45, { 392, 494, 587, 784, 988 })
   return sound:address()

@@ -57,13 +57,14 @@ local press = keys { { 0.5, 0 }, { 0.72, -0.12, "outQuad" }, { 0.83, 1, "inQuart
   { 2.4, 1 }, { 2.75, 0, "inOutCubic" },
   { 3.9, 0 }, { 4.12, -0.12, "outQuad" }, { 4.23, 1.22, "inQuart" }, { 4.36, 1.25 },
   { 4.52, 0.2, "outCubic" }, { 4.8, 0.32, "inOutSine" }, { 5.25, -0.3, "inOutCubic" },
-  { 5.5, -0.34 }, { 5.6, 1.5, "inQuart" }, { 6.15, 1.52 }, { 6.3, -0.4, "outBack" },
+  { 5.5, -0.34 }, { 5.6, 1.36, "inQuart" }, { 6.15, 1.38 }, { 6.3, -0.4, "outBack" },
   { 7, -0.35, "inOutSine" }, { 8.5, -0.3, "inOutSine" } }
 
 --- How high the stubborn ball is: its whole shape, as a share, under the press and after it.
 local squash = keys { { 4.215, 1 }, { 4.23, 0.45, "outQuad" }, { 4.36, 0.42 },
-  { 4.52, 1.3, "outCubic" }, { 4.7, 0.85, "inOutSine" }, { 4.9, 1.06, "inOutSine" },
-  { 5.1, 1, "inOutSine" }, { 5.585, 1 }, { 5.6, 0.12, "outQuad" }, { 6.15, 0.1 },
+  { 4.52, 1.3, "outCubic" }, { 4.7, 0.85, "inOutSine" }, { 4.9, 1.12, "inOutSine" },
+  { 5.08, 0.86, "inOutSine" }, { 5.24, 1.1, "inOutSine" }, { 5.4, 0.92, "inOutSine" },
+  { 5.585, 1, "inOutSine" }, { 5.6, 0.12, "outQuad" }, { 6.15, 0.1 },
   { 6.3, 1.5, "outCubic" }, { 6.55, 0.8, "inOutSine" }, { 6.8, 1.1, "inOutSine" },
   { 7, 1, "inOutSine" } }
 
@@ -148,11 +149,14 @@ local function face_of(time)
   local amazed = motion.span(time, 6.25, 0.2, "outBack")
   local look = 8 * math.sin(2 * math.min(time, 3.6)) * (1 - motion.span(time, 3.4, 0.3))
     + 14 * motion.span(time, 6.95, 0.8, "inOutCubic")
+  -- While it waits, its lamps go up and down with the ball that will not be still.
+  local follows = motion.span(time, 4.5, 0.1) - motion.span(time, 5.5, 0.1)
+  local down = 9 - 4 * amazed - follows * math.max(-4, math.min(13, 60 * (squash:at(time) - 0.9)))
   local parts = {}
   for i, x in ipairs { -36, 36 } do
     local px, py = at(x, -6, 352)
     parts[#parts + 1] = circle { px, py, 24 + 7 * amazed, fill = CREAM }
-    parts[#parts + 1] = circle { px + look * 0.5, py + 9 - 4 * amazed + 0.25 * look,
+    parts[#parts + 1] = circle { px + look * 0.5, py + down + 0.25 * look,
       11 - 4 * amazed, fill = PLUM }
     local frown = motion.span(time, 4.6, 0.3) - amazed
     if frown > 0 then
@@ -176,6 +180,8 @@ local function foley()
     end
   end
   sound:add(4.38, score.slide(150, 620, 0.24), 0.35)
+  sound:add(4.78, score.slide(200, 330, 0.12), 0.14)
+  sound:add(5.1, score.slide(220, 360, 0.12), 0.14)
   sound:add(6.16, score.slide(110, 1000, 0.34), 0.45)
   for i, hertz in ipairs { 523, 659, 784, 1047 } do
     sound:add(6.7 + 0.12 * i, score.bell(hertz, 0.9), 0.16, 0.3 * (i - 2.5))

@@ -43,9 +43,9 @@ local function art_of(column, row, is_voice)
   return prints[1 + (a + 2 * b + a // 2) % #prints](pair[1], is_voice and PAPER or pair[2])
 end
 
--- A quarter turn: a little way back, over the goal, and home. More than a few degrees would open
+-- A quarter turn: a moment's wait, over the goal, and home. A turn back before it would open
 -- slivers in the discs.
-local quarter_turn = keys { { 0, 0 }, { 0.09, -0.03, "outSine" }, { 0.6, 1.02, "inOutCubic" },
+local quarter_turn = keys { { 0, 0 }, { 0.09, 0 }, { 0.6, 1.02, "inOutCubic" },
   { 0.7, 1, "inOutSine" } }
 
 -- The one voice against the choir: two turns with the others, then one the other way and too late,

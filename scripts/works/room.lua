@@ -33,12 +33,12 @@ local rows = {
   { height = { at(4, 1), at(12, 1.9, 1) },
     { "N", at(4, 1), at(9, 0.8), at(10, 1.2), at(11, 0, 0.6, "inOutCubic"), is_no = true },
     { "O", at(4.2, 1), at(9, 0.8), at(10, 1.3), at(11.2, 0, 0.6, "inOutCubic"), is_no = true },
-    { "R", at(6, 0.3), at(11, 1, 1) },
-    { "O", at(6.25, 0.3), at(9, 0.65), at(10, 0.2), at(11, 1.3, 1), at(13.5, 2, 0.7),
-      at(14.25, 1.1, 0.7) },
-    { "O", at(6.5, 0.3), at(9, 0.65), at(10, 0.2), at(11, 1.3, 1), at(13.5, 1.1, 0.7),
-      at(14.25, 1.5, 0.7) },
-    { "M", at(6.75, 0.3), at(11, 1.1, 1) } },
+    { "R", at(5.5, 0.3), at(11, 1, 1) },
+    { "O", at(5.75, 0.3), at(9, 0.65), at(10, 0.2), at(11, 1.3, 1), at(13.5, 2, 0.7),
+      at(14.25, 1.1, 0.7), at(15.5, 1.3, 0.7) },
+    { "O", at(6, 0.3), at(9, 0.65), at(10, 0.2), at(11, 1.3, 1), at(13.5, 1.1, 0.7),
+      at(14.25, 1.5, 0.7), at(15.5, 1.3, 0.7) },
+    { "M", at(6.25, 0.3), at(11, 1.1, 1) } },
 }
 
 local AXIS = { 70, 100, 225 }
@@ -95,7 +95,7 @@ local function music()
     beat(n, score.thump(i > 7 and 52 or 78, 0.4), 0.7)
     beat(n, score.click(0.5, 0.05), 0.25, i % 2 * 0.6 - 0.3)
   end
-  for i = 0, 3 do beat(6 + i / 4, score.click(0.9, 0.04), 0.3, 0.2 * i) end
+  for i = 0, 3 do beat(5.5 + i / 4, score.click(0.9, 0.04), 0.3, 0.2 * i) end
   beat(9, score.slide(180, 300, 0.3), 0.35)
   beat(10, score.slide(260, 90, 0.35), 0.4)
   beat(11, score.slide(90, 700, 0.5), 0.3)
@@ -105,6 +105,7 @@ local function music()
   beat(12, score.thump(46, 0.6), 0.8)
   beat(13.5, score.bass(98, 0.4), 0.3, -0.4)
   beat(14.25, score.bass(130.8, 0.6), 0.3, 0.4)
+  beat(15.5, score.bass(65.4, 0.7), 0.3)
   return sound:address()
 end
 

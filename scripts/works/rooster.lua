@@ -102,7 +102,11 @@ local pose = keys { { 2.5, { 0, 0, 0, 0, 1 } }, { 2.75, { 6, 14, 0, 0, 0.92 }, S
 --- How high the sun is, and the orange sheet of the morning before it.
 local rise = keys { { 6.0, 0 }, { 6.2, 0.06 }, { 6.5, 0.02 }, { 7.0, 1.08, FAST },
   { 7.2, 1, SMOOTH } }
-local glance = keys { { 8.7, 0 }, { 8.8, 12 }, { 9.3, 12 }, { 9.4, 0 } }
+
+--- Where the sun looks, right and down: after the letters; and how far open the eye is.
+local glance = keys { { 8.2, { 0, 0 } }, { 8.3, { 11, 13 } }, { 8.8, { 12, 13 } },
+  { 8.95, { 0, 0 } }, { 9.6, { 0, 0 } }, { 9.7, { 8, -4 } } }
+local open = keys { { 9.2, 1 }, { 9.25, 0.25 }, { 9.4, 0.25 }, { 9.5, 1.12 }, { 9.7, 1 } }
 
 local NECK, TAIL, WING, JAW = { 74, -120 }, { -112, 0 }, { 50, -30 }, { 112, -204 }
 
@@ -144,10 +148,17 @@ local function scrap(piece, i, t)
   if goal then
     local u = motion.span(age, 0.5 + 0.05 * i, 0.5, OVER)
     local up = math.min(age, 0.5 + 0.05 * i)
-    local look = i >= 15 and glance:at(t) * (i - 14.5) * 1.2 or 0
+    local look_x, look_y = 0, 0
+    if i >= 15 then -- the white of the eye, and its pupil, which goes further
+      local x, y = table.unpack(glance:at(t))
+      look_x, look_y = x * (i - 14.5) * 1.2, y * (i - 14.5)
+      local lid = open:at(t) -- shut, the pupil is a line
+      art = art:scale(i == 16 and math.max(1, 2.6 - 1.6 * lid) or 1, lid, piece.middle)
+    end
     return laid(piece, art:scale(1 + 0.6 * u, piece.middle),
-      (1 - u) * (60 * up + last[1]) + u * (goal[1] + 120 - piece.middle[1]) + look,
-      (1 - u) * (last[2] - 760 * up + 620 * up * up) + u * (goal[2] - 150 - piece.middle[2]),
+      (1 - u) * (60 * up + last[1]) + u * (goal[1] + 120 - piece.middle[1]) + look_x,
+      (1 - u) * (last[2] - 760 * up + 620 * up * up) + u * (goal[2] - 150 - piece.middle[2])
+        + look_y,
       (1 - u) * 300 * up + u * goal[3] + jitter)
   end
   local x, y, spin = table.unpack(piece.burst)

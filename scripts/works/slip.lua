@@ -176,11 +176,11 @@ local function frame(f)
   local dot = ellipse { 0, 0, RADIUS * size * (1 + stretch), RADIUS * size * (1 - stretch / 2),
     fill = red }:rotate(way):scale(1 + squashed, 1 - squashed):translate(x, y)
   local is_behind = beat > 15.5 and beat < 19
-  local words = credit("a film by", "Nora Lindqvist", "left", -0.5, 6.8, time)
+  local words = credit("a film by", "Nora Lindqvist", "left", -0.9, 6.8, time)
     or credit("with", "Ida Holm · Jo Park", "right", 8.1, 14.2, time)
   return cel { rect { 0, 0, W, H, fill = ground }, words, is_behind and dot, union(bars),
     beat > 23 and letters(time, ink), not is_behind and dot,
-    beat > 25.5 and text { "in cinemas never", 640, 664, font = FONT, size = 44,
+    beat > 25.5 and text { "in cinemas never", 640, 664, font = FONT, size = 60,
       align = "centre", tracking = 30, fill = "#d8370c" }:fade(motion.span(beat, 25.5, 1)) }
 end
 

@@ -119,7 +119,7 @@ local function thread(from, to, f)
 end
 
 --- A feather that she loses, and that swings to the ground, until its quill is where the line was.
-local FALL, LANDS, ERASED = 7.0, 9.3, 10.55
+local FALL, LANDS, ERASED = 7.0, 9.3, 10.5
 local from_x, from_y = way:at(head:at(FALL) / way.length)
 local function feather(f, t)
   local u = motion.span(t, FALL, LANDS - FALL)
@@ -132,13 +132,13 @@ local function feather(f, t)
   return quill:rotate(-34 * math.sin(7.5 * u) * (1 - u) + writes * 3 * math.sin(40 * t), -52, 2)
     :scale(1.5):translate(638 + (from_x - 638) * (1 - u) + 170 * sway,
       from_y + (517 - from_y) * u - 34 * sway ^ 2)
-    :fade(1 - motion.span(t, ERASED, 0.35))
+    :fade(1 - motion.span(t, ERASED, 0.25))
 end
 
 -- ---------------------------------------------------------------- the sound
 
 --- She wakes, shakes herself, and goes up in thirds. The feather comes down: a pencil on paper.
-local START = 1 -- in seconds of the acting: the film begins as it ends, with the line
+local START = 1.35 -- in seconds of the acting: the film begins as it ends, with the line
 local notes = { { LANDS + 0.1, score.wind(0.65, 1.2, 0.5), 0.105 },
   { 1.55, score.slide(220, 330, 0.6), 0.09 }, { 3.3, score.bell("G5", 1.6), 0.3 },
   { 3.55, score.bell("C5", 1.6), 0.3 },
@@ -153,8 +153,8 @@ end
 notes[#notes + 1] = { LANDS, score.bell("C4", 1.6), 0.21 }
 for _, note in ipairs(notes) do note[1] = note[1] - START end
 
-return film { title = "A line of one's own", size = { 1280, 720 }, fps = 24, frames = 240,
-  poster = "4.9s", sound = score.play(10, notes),
+return film { title = "A line of one's own", size = { 1280, 720 }, fps = 24, frames = 228,
+  poster = "4.5s", sound = score.play(9.5, notes),
   grain = { amount = set.grain, size = 2, frame = 0 },
   frame = function(f)
     local t = START + f:twos()
