@@ -44,7 +44,7 @@ local list = {
     size = "640x640", still = "webp", allow = "scripts" },
   { name = "works/press", script = "scripts/works/press.lua", loop = "153-154", size = "960x540",
     allow = "scripts" }, -- two frames that are the same: grain is small only in a video
-  { name = "works/billion", script = "scripts/works/billion.lua", frame = 205, size = "960x540",
+  { name = "works/billion", script = "scripts/works/billion.lua", frame = 213, size = "960x540",
     still = "webp", allow = "scripts" },
   { name = "works/egg", script = "scripts/works/egg.lua", frame = 232, size = "360x640",
     still = "webp", allow = "scripts" },
