@@ -34,8 +34,8 @@ local list = {
     still = "webp", allow = "scripts", set = "grain=0" },
   { name = "works/thread", script = "scripts/works/thread.lua", frame = 109, size = "960x540",
     still = "webp", allow = "scripts", set = "grain=0" },
-  { name = "works/rooster", script = "scripts/works/rooster.lua", frame = 157, size = "960x540",
-    still = "webp", allow = "scripts", set = "grain=0" },
+  { name = "works/rooster", script = "scripts/works/rooster.lua", loop = "157-158",
+    size = "960x540", quality = "60", allow = "scripts", set = "grain=0" }, -- as of press, below
   { name = "works/moon_cat", script = "scripts/works/moon_cat.lua", frame = 161, size = "960x540",
     still = "webp", allow = "scripts" },
   { name = "works/room", script = "scripts/works/room.lua", frame = 128, size = "960x540",
