@@ -259,7 +259,7 @@ for i, tone in ipairs { "F3", "C4", "F4", "A4", "C5", "F5", "A5" } do
   notes[#notes + 1] = { BURST + 0.1 * i, score.bell(tone, 1.6), 0.18 }
 end
 for i, tone in ipairs { "C5", "A4", "F4" } do
-  notes[#notes + 1] = { 8.5 + 0.3 * i, score.bell(tone, 1.6), 0.18 }
+  notes[#notes + 1] = { 7.65 + 0.65 * i, score.bell(tone, 1.6), 0.18 }
 end
 
 return film { title = "Cut-paper morning", size = { 1280, 720 }, fps = 24, frames = 240,
