@@ -34,14 +34,14 @@ local heron = union {
   line("M24 -86Q14 -89 4 -80", 1.8), circle { 23, -84.4, 1.2, fill = mood.light } }
 
 local jetty = union {
-  rect { 262, 130, 240, 6, fill = ink }, rect { 262, 136, 240, 3, fill = mood.ground },
-  line("M274 124V156M332 126V156M398 126V156M462 126V156", 5.5),
-  line("M290 131V66Q290 58 298 58H309M290 74L299 59", 3.4), line("M309 58V66", 1.6) }
-local glass = path { d = "M302 72H316L314 92H304Z", fill = "#ffd27a" }
-local glow = radial { centre = { 309, 82 }, radius = 30, { 0, rgb("#ffb347", 0.7) },
+  rect { 262, 118, 240, 5, fill = ink }, rect { 262, 123, 240, 3, fill = mood.ground },
+  stroke { d = "M274 112V150M332 114V150M398 114V150M462 114V150", width = 5, fill = ink },
+  line("M290 119V54Q290 46 298 46H309M290 62L299 47", 3.4), line("M309 46V54", 1.6) }
+local glass = path { d = "M302 60H316L314 80H304Z", fill = "#ffd27a" }
+local glow = radial { centre = { 309, 70 }, radius = 30, { 0, rgb("#ffb347", 0.7) },
   { 0.5, rgb("#ffb347", 0.2) }, { 1, rgb("#ffb347", 0) } }
-local lantern = circle { 309, 82, 30, fill = glow } | glass
-  | path { d = "M299 73L309 63L319 73ZM302 92H316V96H302Z", fill = mood.accent }
+local lantern = circle { 309, 70, 30, fill = glow } | glass
+  | path { d = "M299 61L309 51L319 61ZM302 80H316V84H302Z", fill = mood.accent }
 
 local reeds = union {}
 for i = 1, 26 do
