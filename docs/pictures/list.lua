@@ -77,7 +77,7 @@ local list = {
   { name = "shapes", page = "docs/guide-picture.md", size = "640x360" },
   { name = "gel", page = "docs/guide-picture.md" },
   { name = "dusk", page = "docs/guide.md", strip = "1,26,48" },
-  { name = "lamplight", page = "docs/guide.md", frame = 4, size = "640x360", still = "webp" },
+  { name = "lamplight", page = "docs/guide.md", frame = 22, size = "640x360", still = "webp" },
   { name = "postcards", page = "docs/guide-picture.md", frame = 1, still = "webp" },
   { name = "soft", page = "docs/guide.md", frame = 6, size = "640x360", still = "webp" },
   { name = "stickers", page = "docs/guide-picture.md" },

@@ -61,10 +61,12 @@ local lantern = union { arm,
   stroke { d = "M-13 -46 C-16 -76 16 -76 13 -46", width = 3, fill = dark },
   stroke { d = "M-9 -74V-63M-2 -76V-61M5 -76V-61M11 -74V-64", width = 7.4, cap = "round",
     fill = skin },
+  stroke { d = "M-5.5 -79V-60M1.5 -80V-59M8 -79V-60", width = 1.3, cap = "round",
+    fill = "#a4683f" },
   rect { -17, -30, 34, 60, fill = "#ffd98c" },
   path { d = "M0 24 C-14 12 -6 2 0 -16 C6 2 14 12 0 24 Z", fill = "#fff8e0" },
   stroke { d = "M-17 -30 V30 M17 -30 V30", width = 3, fill = dark } }
 
 return { wall = wall, board = board, lantern = lantern, patch = patch, bottles = {
   bottle("tall", 236, 0.1, 0.62, 0.2), bottle("round", 362, 0.95, 0.12, 0.05),
-  bottle("square", 490, 0.06, 0.3, 0.95) } }
+  bottle("square", 490, 0.07, 0.35, 1) } }
