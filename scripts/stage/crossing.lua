@@ -43,8 +43,12 @@ end
 --- The ways of four cars, their starts in units, and how fast they are.
 local cars = {
   { "M78 -160V440", 40, 330 }, { "M122 440V-200", 40, 260 },
-  { "M-130 186C60 186 122 176 122 60V-200", 10, 300 }, { "M330 144H-200", -30, 340 } }
+  { "M-130 186C60 186 122 176 122 60V-200", 10, 300 }, { "M330 144H-200", -84, 340 } }
 for _, car in ipairs(cars) do car.way = motion.along(car[1]) end
+
+-- Each exposure adds its light, so the cars are lighter than the wet road.
+local body = rect { 0, -11, 42, 22, radius = 7, fill = "#5d7a84" }
+  | rect { 11, -8.5, 20, 17, radius = 4, fill = "#22343b" }
 
 --- Two lights of a car, across its way.
 local function pair(way, at, tint)
@@ -65,7 +69,9 @@ return { streets = cel(tiles), lights = function(tile, time)
   local lights = {}
   for i, car in ipairs(cars) do
     local front = car[2] + car[3] * time
-    lights[i] = pair(car.way, front + 36, "#fff3c4") | pair(car.way, front, "#ff3b24")
+    local x, y, direction = car.way:at(front / car.way.length)
+    lights[i] = body:fade(4 ^ (1 - tile)):rotate(direction):translate(x, y)
+      | pair(car.way, front + 36, "#fff3c4") | pair(car.way, front, "#ff3b24")
   end
   return clip(union(lights), frame):translate(208 * tile - 196, 12)
 end }
