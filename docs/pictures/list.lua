@@ -51,7 +51,7 @@ local list = {
   { name = "works/slip", script = "scripts/works/slip.lua", frame = 186, size = "960x540",
     still = "webp", allow = "scripts" },
   { name = "tile_puddle", script = "scripts/works/puddle.lua", loop = "191-228", size = "480x270",
-    quality = "23", most = 96000, allow = "scripts", set = "grain=0" },
+    quality = "23", most = 96000, off = 18, allow = "scripts", set = "grain=0" },
   { name = "tile_billion", script = "scripts/works/billion.lua", loop = "94-141", size = "480x270",
     quality = "54", most = 90000, allow = "scripts" },
   { name = "tile_room", script = "scripts/works/room.lua", loop = "109-156", size = "480x270",
