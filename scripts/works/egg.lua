@@ -49,7 +49,7 @@ local function word(card, time, y)
   local last = set[#set]
   local left = (W - last.x - last.advance) / 2
   for i, letter in ipairs(set) do
-    local u = motion.span(time, 0.12 + 0.07 * i, 0.5, "outBack")
+    local u = motion.span(time, 0.07 * i - 0.2, 0.5, "outBack")
     if u > 0 then
       art[#art + 1] = letter.object:scale(1, u, "bottom"):translate(left, y):paint(card.ink)
     end
