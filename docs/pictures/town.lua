@@ -62,8 +62,8 @@ end
 add_windows("still", make_rooms("scripts/town/boxes.csv", rows), folder .. "/town.plane")
 
 -- The film of the way: its last sheet is cut from the frame with which it begins.
-run("'%s' tiles scripts/town.lua --frame 97 --sparse --scale 2 --progress none -o '%s/tiles'",
-  binary, planes)
+run("'%s' tiles scripts/town.lua --frame 97 --fresh --sparse --scale 2 --progress none "
+  .. "-o '%s/tiles'", binary, planes)
 run("'%s' render scripts/town/zoom.lua --allow scripts --allow '%s' --quality 70 --progress none "
   .. "--set sheet=\"$(realpath '%s')/tiles/town.dzi\" -o '%s/town_zoom.mp4'", binary, planes,
   planes, folder)

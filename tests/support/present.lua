@@ -87,7 +87,7 @@ function present.site()
 end
 
 --- The folder that `./run web` has made; nil: there is none.
-function present.web()
+function present.engine()
   local folder = os.getenv "CELSPAN_WEB" or "out/web"
   return ends_well(("[ -e '%s/celspan.wasm' ]"):format(folder)) and folder or nil
 end

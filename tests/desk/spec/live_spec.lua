@@ -4,7 +4,7 @@ local markdown = require "tests.support.markdown"
 local present = require "tests.support.present"
 local workbench = require "tests.support.workbench"
 
-local WEB = present.web()
+local WEB = present.engine()
 local AXE = "out/npm/node_modules/axe-core/axe.min.js"
 
 if not present.program "chromium" or not present.site() then

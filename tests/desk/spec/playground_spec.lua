@@ -3,7 +3,7 @@ local browsing = require "tests.support.browsing"
 local present = require "tests.support.present"
 local workbench = require "tests.support.workbench"
 
-local WEB = present.web()
+local WEB = present.engine()
 local AXE = "out/npm/node_modules/axe-core/axe.min.js"
 
 if not present.program("node", "chromium", "ffmpeg", "ffprobe") then
