@@ -112,8 +112,8 @@ function filmOf(file, name) {
   return `${name}.mp4`;
 }
 
-/** A picture with its size, which is copied to pictures/. It is what its film, or the plane of the
- * same name in out/docs, shows until it plays. */
+/** A picture with its size, which is copied to pictures/. It is what its film shows until it plays;
+ * or, in the page of its own name, the plane of that name in out/docs: in others it may be a link. */
 function showPicture(page, token, about) {
   const file = posix.join(posix.dirname(page.file), token.attrGet("src"));
   const { width, height } = sizeOf(file);
@@ -128,7 +128,7 @@ function showPicture(page, token, about) {
   }
   const shown = `<img src="${address}" alt="${escape(about ?? token.content)}" width="${width
   }" height="${height}" loading="lazy" decoding="async">`;
-  if (fs.existsSync(`out/docs/${name}.plane`)) {
+  if (page.file === `docs/${name}.md` && fs.existsSync(`out/docs/${name}.plane`)) {
     films.add(`${name}.plane`).add(PLAYER);
     return `<celspan-film src="${way(page.address, `${name}.plane`)}" autoplay loop controls `
       + `aria-label="${escape(token.content)}">${shown}</celspan-film><script type="module" `

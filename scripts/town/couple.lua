@@ -1,6 +1,5 @@
 -- Two who dance in a slow turn, seen all round: shapes that are the same from every side, faces
--- that
--- go round with them, and arms that are sorted by how near they are.
+-- that go round with them, and arms that are sorted by how near they are.
 local gouache = require "town.gouache"
 
 local couple = {}

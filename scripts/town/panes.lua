@@ -1,6 +1,6 @@
--- The windows of the town as they are seen from afar: what the first drawing of the room is above
--- and below, as colours, in the frame of town/window.lua. A few go out and come on again, in a wave
--- up the hill.
+-- The windows of the town as they are seen from afar: two colours that stand for the room, above
+-- and below, in the frame of town/window.lua. A few go out and come on again, in a wave up the
+-- hill.
 local csv = require "celspan.csv"
 local window = require "town.window"
 

@@ -129,8 +129,7 @@ function pencil.hand(second, paper)
 end
 
 --- The pose of a frame and the hand that draws it. row: a letter for each `step` frames; a capital
---- is
---- the second drawing of the pose. poses: by small letters.
+--- is the second drawing of the pose. poses: by small letters.
 function pencil.exposed(poses, row, step, number, paper)
   local at = number // step % #row + 1
   local letter = row:sub(at, at)

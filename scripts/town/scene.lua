@@ -132,7 +132,7 @@ local function spill(x, w, y, high)
 end
 local spills = spill(602, 96, 862, 46) | spill(1048, 72, 860, 40) | spill(1387, 96, 860, 46)
 
---- A door with its lamp.
+--- A door with its knob.
 local function door(x, y, w, h)
   return path { fill = "#2f2420", d = ("M%g %g v%g a%g %g 0 0 1 %g 0 v%g Z"):format(x, y,
       -h + w / 2, w / 2, w / 2, w, h - w / 2) }
@@ -231,7 +231,7 @@ local function air(number)
   return union(shown)
 end
 
-local BETWEEN = rect { 384, 0, 1280, H } - kennel - bird_house -- the houses in front
+local BETWEEN = rect { 384, 0, 1280, H } - kennel - bird_house -- the street, between houses
 
 -- The parts of the town are planes of their own in its page, so that what is still is loaded once.
 return {

@@ -74,7 +74,7 @@ local function head(p, look, paper)
     p.line({ 200, 201, 208, 205, 215, 202 }, 4), p.line({ 172, 198, 198, 196, 214, 198 }, 2.5) }
 end
 
---- Strokes side by side, as pencils shade: from x, y, each dx, dy long, `count` of them, step
+--- Strokes side by side, as pencils shade: `count` of them from x, y, each dx, dy long, `step`
 --- apart.
 local function hatch(p, x, y, dx, dy, count, step)
   local list = {}

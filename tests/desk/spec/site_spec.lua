@@ -205,7 +205,7 @@ describe("the site #plain", function()
       refused(menu, { ["README.md"] = "# celspan\n\nText.\n", ["docs/a.md"] = "# A\n\nText.\n" }))
   end)
 
-  it("plays the film or plane of a work where it was made, and else shows its picture", function()
+  it("plays the film of a work where it was made, and else shows its picture", function()
     bench:inside("mkdir -p works/docs/pictures/works works/out/docs/works")
     bench:inside(("cp -r '%s/docs/site' works/docs/site"):format(root))
     bench:write("works/docs/site/menu.json", '{ "Begin": { "README.md": "celspan" } }')
@@ -221,12 +221,27 @@ describe("the site #plain", function()
     bench:write("works/out/docs/works/cat.mp4", "film")
     assert.matches('<video src="works/cat.mp4" poster="pictures/works/cat.webp"', index(), 1, true)
     assert.equal("film", bench:read "shown/works/cat.mp4")
-    bench:inside "mv works/out/docs/works/cat.mp4 works/out/docs/works/cat.plane"
-    bench:write("works/out/docs/celspan-film.js", "player")
-    assert.matches('<celspan-film src="works/cat.plane" autoplay loop controls', index(), 1, true)
-    assert.matches('src="celspan-film.js"></script>', index(), 1, true)
-    assert.same({ "film", "player" },
-      { bench:read "shown/works/cat.plane", bench:read "shown/celspan-film.js" })
+  end)
+
+  it("plays a plane in the page of its name, and links its picture in others", function()
+    bench:inside("mkdir -p town/docs/pictures town/out/docs")
+    bench:inside(("cp -r '%s/docs/site' town/docs/site"):format(root))
+    bench:write("town/docs/site/menu.json",
+      '{ "Begin": { "README.md": "celspan", "docs/town.md": "Town" } }')
+    bench:write("town/README.md", "# celspan\n\n[![In](docs/pictures/town.webp)](docs/town.md)\n")
+    bench:write("town/docs/town.md", "# Town\n\n![A town](pictures/town.webp)\n")
+    bench:write("town/docs/pictures/town.webp", markdown.read "docs/pictures/town.webp")
+    bench:write("town/out/docs/town.plane", "plane")
+    bench:write("town/out/docs/celspan-film.js", "player")
+    local code, _, err = bench:inside "cd town && node docs/site/make.js ../shown"
+    assert.equal(0, code, err)
+    local index, page = bench:read "shown/index.html", bench:read "shown/town.html"
+    assert.matches('<a href="town.html"><img src="pictures/town.webp"', index, 1, true)
+    assert.is_nil(index:find("celspan-film", 1, true))
+    assert.matches('<celspan-film src="town.plane" autoplay loop controls', page, 1, true)
+    assert.matches('src="celspan-film.js"></script>', page, 1, true)
+    assert.same({ "plane", "player" },
+      { bench:read "shown/town.plane", bench:read "shown/celspan-film.js" })
   end)
 end)
 
