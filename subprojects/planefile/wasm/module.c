@@ -17,6 +17,9 @@ static planefile_plane *plane;
 static planefile_fault fault;
 static unsigned char *pixels; /* of the latest view */
 static size_t pixel_bytes;
+static struct {
+  uint32_t left, upper, right, lower;
+} seen; /* the box around what is not clear of the latest view */
 
 void *cs_wasm_resize(void *user, void *block, size_t old_size, size_t new_size);
 
@@ -62,13 +65,30 @@ static bool make_room(const planefile_view *view) {
   return pixels != NULL;
 }
 
+/* Widens the box by a row. */
+static void see(const unsigned char *row, uint32_t y, const planefile_span *spans, size_t count) {
+  uint32_t columns = spans[count - 1].end, left = row[3] ? 0 : spans[0].end, right = columns;
+  if (row[(size_t)4 * columns - 1] == 0)
+    right = count > 1 ? spans[count - 2].end : 0;
+  if (left >= right)
+    return;
+  seen.left = left < seen.left ? left : seen.left;
+  seen.right = right > seen.right ? right : seen.right;
+  seen.upper = y < seen.upper ? y : seen.upper;
+  seen.lower = y + 1;
+}
+
 static bool draw_rows(planefile_drawer *drawer, const planefile_view *view) {
   const planefile_span *spans;
   size_t count;
+  seen.left = seen.upper = UINT32_MAX;
+  seen.right = seen.lower = 0;
   for (uint32_t y = 0; y < view->rows; y++) {
+    unsigned char *row = pixels + (size_t)4 * view->columns * y;
     if (planefile_drawer_row(drawer, &spans, &count) != PLANEFILE_OK)
       return false;
-    planefile_span_pixels(plane, spans, count, pixels + (size_t)4 * view->columns * y);
+    planefile_span_pixels(plane, spans, count, row);
+    see(row, y, spans, count);
   }
   return true;
 }
@@ -86,3 +106,6 @@ const unsigned char *draw(uint32_t across, uint32_t down, uint32_t x, uint32_t y
   planefile_drawer_destroy(drawer);
   return is_drawn ? pixels : NULL;
 }
+
+/* After draw: the box, as columns and rows from and before; right is 0 where all is clear. */
+EXPORT("seen") const void *seen_box(void) { return &seen; }

@@ -511,6 +511,28 @@ describe("the element of planes #plain", function()
     assert.same({ true, 0, true }, said[3])
   end)
 
+  it("draws only what has changed since the picture before", function()
+    nest()
+    made("blue", 1, "#0000ff")
+    joined("calm", "blue", "80,5,50,28.125,orange.plane\n20,20,30,15,green.plane\n")
+    local said = see(NESTED .. [=[
+      await nested("calm");
+      await shown("255,128,0,255", 500, 80);
+      await page.get(`window.calls = { clearRect: 0, putImageData: 0 }, Object.keys(calls)
+        .forEach(name => {
+          const own = CanvasRenderingContext2D.prototype[name];
+          CanvasRenderingContext2D.prototype[name] = function (...words) {
+            calls[name]++;
+            return own.apply(this, words);
+          };
+        }), film.play(), 0`);
+      await page.pause(2);
+      return page.get("film.pause(), [calls.clearRect, calls.putImageData]");]=])
+    local pictures, decoded = table.unpack(said) -- orange changes four times a second
+    assert.is_true(pictures >= 2 and pictures <= 9, "pictures: " .. pictures)
+    assert.is_true(decoded <= pictures + 1, "planes that were decoded: " .. decoded)
+  end)
+
   it("forgets planes that are far away, and reads them again", function()
     made("black", 1, "#000000")
     made("green", 1, "#008000")

@@ -229,6 +229,7 @@ class CelspanFilm extends (globalThis.HTMLElement ?? class {}) {
     this.#part("box").hidden = false;
     this.#part("film").hidden = !this.#is_film;
     this.#part("frame").max = plane.frames;
+    this.#part("frame").hidden = this.#part("number").hidden = plane.frames === 1;
     this.#apply_attributes();
     this.#viewer = show_tiles(this.#part("view"), this.#pyramid, {
       load: (...tile) => this.#load_tile(signal, ...tile), is_made: () => true,

@@ -58,13 +58,33 @@ class Plane {
     return new ImageData(new Uint8ClampedArray(buffer, address, 4 * columns * rows), columns, rows);
   }
 
-  // Draws as much of the frame as a canvas shows, of which it covers left..right and upper..lower.
-  paint(pencil, { left, upper, right, lower }) {
-    const { width, height } = pencil.canvas, x = Math.max(0, left), y = Math.max(0, upper);
+  // As much of the frame as a canvas shows, of which it covers left..right and upper..lower: the
+  // pixels and their place there; null: nothing.
+  #shown({ left, upper, right, lower }, { width, height }) {
+    const x = Math.max(0, left), y = Math.max(0, upper);
     const columns = Math.min(right, width) - x, rows = Math.min(lower, height) - y;
-    if (columns <= 0 || rows <= 0) return;
+    if (columns <= 0 || rows <= 0) return null;
     const part = [right - left, lower - upper, x - left, y - upper, columns, rows];
-    pencil.putImageData(this.draw(...part), x, y);
+    return { pixels: this.draw(...part), x, y };
+  }
+
+  // Draws that, in place of the pixels there.
+  paint(pencil, box) {
+    const shown = this.#shown(box, pencil.canvas);
+    if (shown) pencil.putImageData(shown.pixels, shown.x, shown.y);
+  }
+
+  // That as { picture, x, y }, without the clear rows and columns around it; null: all is clear.
+  cut(box, canvas) {
+    const shown = this.#shown(box, canvas);
+    if (!shown) return null;
+    const [left, upper, right, lower] =
+      new Uint32Array(this.calls.memory.buffer, this.calls.seen(), 4);
+    if (right === 0) return null;
+    const picture = document.createElement("canvas");
+    [picture.width, picture.height] = [right - left, lower - upper];
+    picture.getContext("2d").putImageData(shown.pixels, -left, -upper);
+    return { picture, x: shown.x + left, y: shown.y + upper };
   }
 
   tile(pyramid, level, column, row) {

@@ -100,7 +100,7 @@ class Planes {
   clock = 0; // the number of the latest picture
   coming = 0;
   loaded = new Set(); // files that have come
-  pictures = new Map(); // by window, of the latest picture: { canvas, key }
+  layers = new Map(); // by window, of the latest picture, from the rear to the front
 
   static async open(source) {
     const planes = new Planes();
@@ -111,7 +111,7 @@ class Planes {
 
   // Draws a frame of the outer plane at a place of the canvas, and what its windows show at a time.
   paint(pencil, place, frame, time) {
-    const { canvas } = pencil, shown = [], drawn = this.pictures;
+    const { canvas } = pencil, shown = [];
     const found = { canvas, clock: ++this.clock, near: 0, shown, wanted: [] };
     this.outer.gather(place, found);
     let first = shown.length;
@@ -119,12 +119,7 @@ class Planes {
       const { nest: { plane }, window } = shown[--first];
       plane.choose(window ? Math.floor(time * plane.rate + 1e-6) % plane.frames : frame);
     }
-    this.pictures = new Map();
-    pencil.clearRect(0, 0, canvas.width, canvas.height);
-    shown.slice(first).forEach((one, i) => {
-      if (i === 0) one.nest.plane.paint(pencil, rounded(one.place));
-      else this.#paint_window(pencil, one, drawn.get(one.window));
-    });
+    this.#show(pencil, shown.slice(first).map(one => layer_of(one, canvas)));
     found.wanted.sort((a, b) => b.size - a.size);
     found.wanted.slice(0, AT_ONCE - this.coming).forEach(({ file }) => this.#load(file));
     this.#forget();
@@ -137,22 +132,26 @@ class Planes {
     return left <= 0 && upper <= 0 && right >= canvas.width && lower >= canvas.height;
   }
 
+  // Draws the layers, from the rear to the front, unless the canvas shows them.
+  #show(pencil, layers) {
+    const before = [...this.layers.values()], { width, height } = pencil.canvas;
+    const is_shown = (one, i) => one.window === before[i].window && one.key === before[i].key;
+    if (layers.length === before.length && layers.every(is_shown)) return;
+    pencil.clearRect(0, 0, width, height);
+    layers.forEach((layer, i) => {
+      const old = this.layers.get(layer.window), is_same = old?.key === layer.key;
+      if (i === 0 && !is_same) layer.plane.paint(pencil, layer.box);
+      else this.#draw(pencil, layer, is_same ? old.cut : undefined);
+    });
+    this.layers = new Map(layers.map(layer => [layer.window, layer]));
+  }
+
   // From a picture of its own, which remains as long as it shows the same.
-  #paint_window(pencil, { nest: { plane }, place, window }, before) {
-    const { left, upper, right, lower } = rounded(place), { canvas } = pencil;
-    const x = Math.max(0, left), y = Math.max(0, upper);
-    const columns = Math.min(right, canvas.width) - x, rows = Math.min(lower, canvas.height) - y;
-    if (columns <= 0 || rows <= 0) return;
-    const key = [plane.frame, left, upper, right, lower, columns, rows].join();
-    const picture = before?.key === key ? before : { key, canvas: document.createElement("canvas") };
-    if (picture !== before) {
-      Object.assign(picture.canvas, { width: columns, height: rows });
-      plane.paint(picture.canvas.getContext("2d"),
-        { left: left - x, right: right - x, upper: upper - y, lower: lower - y });
-    }
-    this.pictures.set(window, picture);
-    pencil.globalAlpha = Math.min(1, place.size / NEAR - 1);
-    pencil.drawImage(picture.canvas, x, y);
+  #draw(pencil, layer, cut = layer.plane.cut(layer.box, pencil.canvas)) {
+    layer.cut = cut;
+    if (!cut) return;
+    pencil.globalAlpha = layer.alpha;
+    pencil.drawImage(cut.picture, cut.x, cut.y);
     pencil.globalAlpha = 1;
   }
 
@@ -200,6 +199,13 @@ class Planes {
 }
 
 const view_of = bytes => new DataView(bytes.buffer, bytes.byteOffset, bytes.length);
+
+// What is drawn of one that is shown: two with equal keys are equal. cut: once it has a picture.
+function layer_of({ nest: { plane }, place, window }, { width, height }) {
+  const box = rounded(place), alpha = window ? Math.min(1, place.size / NEAR - 1) : 1;
+  const key = [plane.frame, ...Object.values(box), alpha, width, height].join();
+  return { window, plane, box, alpha, key, cut: undefined };
+}
 
 const rounded = ({ left, upper, right, lower }) => ({
   left: Math.round(left), right: Math.max(Math.round(left) + 1, Math.round(right)),
