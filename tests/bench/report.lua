@@ -61,6 +61,27 @@ local function this_run()
 ]], names = { "property", "value" } }
 end
 
+local function losses()
+  page:put [[
+## Where others are faster
+
+Cairo, AGG, Qt and Skia were run with every drawing, Cairo in Python, Skia in Node, headless
+Chromium and Synfig with whole films, OpenCV, libvips, OpenImageIO and ffmpeg with pictures and
+files. In the tables, these scenes have figures below 1 or another in front:
+
+- *Small drawings of many edges*, a new sheet of clip art, `small`, `faint`, `100` at 1k: exact
+  areas need the order of edges in each row and their intersections, where the others add the cover
+  of one shape after another and let errors of a code or more remain (`faint`). An edge that is
+  shared by few pixels costs more than those pixels. At 4k most of these are won, at 30k all.
+- *Gradients in small shapes*: linear light is converted for each pixel of a gradient.
+- *A picture over a picture*, beside Qt, AGG and Cairo: four floats a pixel in place of four bytes.
+- *Many groups with modes and blurs* at 1920, beside Skia: a blur has a frame of floats; at 3840
+  celspan is in front.
+- *Defocus of a small radius*, beside OpenCV and libvips, which blur the pixels of bytes that are
+  there already.
+]]
+end
+
 introduction()
 more.beside(page)
 drawings_and_films()
@@ -70,6 +91,7 @@ shapes.exactness(page)
 more.pictures(page)
 more.files(page)
 more.paper(page)
+losses()
 this_run()
 
 page:write(path)

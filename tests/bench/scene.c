@@ -131,6 +131,7 @@ void bench_choose_way(celspan_context *context, celspan_frame_desc *desc, const 
     ;
   context->root->forced_way = ways[i].forced;
   desc->repeats = ways[i].repeats;
+  context->root->held_bytes = 0; /* what is drawn again is drawn, and not copied as a whole */
   if (!ways[i].keeps)
     context->root->map_bytes = 0;
 }
