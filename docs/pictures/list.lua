@@ -203,7 +203,7 @@ for _, recipe in ipairs {
   { "film_leader", "1-48", "320x180", quality = "28" },
   { "every_shape", "all", "320x180", quality = "27" },
   { "scarf_walk", "1-48", "320x180", quality = "28" }, { "harvest_charts", "all" },
-  { "deep_title", "all", "320x180", quality = "24", most = 250000 },
+  { "deep_title", "all", "320x180", quality = "24" },
   { "cel_shading", "1-48", "320x180", quality = "28" }, { "boiling_lines", "all" },
   { "paint_on_twos", "all", quality = "28" }, { "smear_frame", "all", quality = "28" },
   { "day_and_night", "all", "320x180", quality = "32" },
@@ -212,8 +212,7 @@ for _, recipe in ipairs {
   local loop = type(frames) == "string" and frames or nil
   list[#list + 1] = { name = recipe[1], page = "docs/cookbook.md", frame = not loop and frames,
     loop = loop, size = size or loop and "360x202", background = recipe.background,
-    before = recipe.before, quality = recipe.quality, off = recipe.off, still = recipe.still,
-    most = recipe.most }
+    before = recipe.before, quality = recipe.quality, off = recipe.off, still = recipe.still }
 end
 
 --- The name of the file of a picture.

@@ -65,20 +65,23 @@ local function losses()
   page:put [[
 ## Where others are faster
 
-Cairo, AGG, Qt and Skia were run with every drawing, Cairo in Python, Skia in Node, headless
-Chromium and Synfig with whole films, OpenCV, libvips, OpenImageIO and ffmpeg with pictures and
-files. In the tables, these scenes have figures below 1 or another in front:
+Cairo, AGG, Qt and Skia were run with every drawing; Cairo in Python, Skia in Node, headless
+Chromium and Synfig with whole films; OpenCV, libvips, OpenImageIO and ffmpeg with pictures and
+files; rlottie, Skia's Skottie and ThorVG with Lottie files. In front of celspan are:
 
-- *Small drawings of many edges*, a new sheet of clip art, `small`, `faint`, `100` at 1k: exact
-  areas need the order of edges in each row and their intersections, where the others add the cover
-  of one shape after another and let errors of a code or more remain (`faint`). An edge that is
-  shared by few pixels costs more than those pixels. At 4k most of these are won, at 30k all.
-- *Gradients in small shapes*: linear light is converted for each pixel of a gradient.
+- *New drawings of many edges at 1k*: sheets of clip art and emoji, `mosquito`, `small`, `faint`,
+  `100`. Exact areas need the order of the edges in each row and where they intersect; the others
+  add the cover of one shape after another, and let errors of up to seven codes remain (`faint`). An
+  edge that is in few pixels costs more than these pixels. At 4k `small` and `faint` are left, at
+  30k none.
+- *Gradients in shapes that share pixels*, up to 4k for 100 of them, beside Qt: linear light is
+  converted for each pixel of a gradient.
+- *Lottie files*, beside rlottie, which adds 8-bit values; Skottie and ThorVG take longer.
 - *A picture over a picture*, beside Qt, AGG and Cairo: four floats a pixel in place of four bytes.
-- *Many groups with modes and blurs* at 1920, beside Skia: a blur has a frame of floats; at 3840
-  celspan is in front.
-- *Defocus of a small radius*, beside OpenCV and libvips, which blur the pixels of bytes that are
-  there already.
+- *Many groups with modes and blurs* at 1920, beside Skia, but not at 3840: blurs are of floats in
+  linear light.
+- *Defocus of a small radius*, beside OpenCV and libvips, which blur bytes that are there already.
+- *A clip under a title*, beside ffmpeg, which leaves the pixels of the clip as they are coded.
 ]]
 end
 

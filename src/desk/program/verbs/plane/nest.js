@@ -200,7 +200,8 @@ class Planes {
 
 const view_of = bytes => new DataView(bytes.buffer, bytes.byteOffset, bytes.length);
 
-// What is drawn of one that is shown: two with equal keys are equal. cut: once it has a picture.
+// What is drawn of one that is shown: two with equal keys are equal. cut: its picture, once it has
+// one; null: all of it is clear.
 function layer_of({ nest: { plane }, place, window }, { width, height }) {
   const box = rounded(place), alpha = window ? Math.min(1, place.size / NEAR - 1) : 1;
   const key = [plane.frame, ...Object.values(box), alpha, width, height].join();
