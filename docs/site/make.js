@@ -232,8 +232,9 @@ function pictureBeside(tokens, at, name) {
 }
 
 // What the engine of web pages, or a page, does not have.
-const LACKING = /\/usr\/share\/fonts|stage\.(dance|noto)|\.png"|celspan\.(ink|layers|relight|sound|trace|track)/;
-const READ = ["drawings", "stage", "type", "demo/line.tsv", "town/window.lua"]; // in scripts/
+const LACKING = /\/usr\/share\/fonts|stage\.(dance|noto)|plate\.|celspan\.sound/;
+const READ = ["drawings", "paintings", "pencil", "pictures", "stage", "type", "demo/line.tsv",
+  "town/window.lua"]; // in scripts/
 const read = new Map(); // by scripts: the content of each file
 
 /** Keeps a block that others read, by its own name or that in backquotes above it. */
@@ -247,7 +248,8 @@ function keepFile({ type, info, content }, above) {
 function writeLive() {
   const copy = (from, to) => fs.cpSync(from, path.join(folder, to), { recursive: true });
   copy(path.join(__dirname, "live"), "live");
-  for (const name of ["celspan.wasm", "celspan-writers.wasm", "more.json", "LICENSES"]) {
+  for (const name of ["celspan.wasm", "celspan-whole.wasm", "more.json", "LICENSES",
+    "LICENSES-whole"]) {
     copy(`${web}/${name}`, `live/${name}`);
   }
   copy(`${web}/engine.mjs`, "live/engine.js"); // which servers know as a script

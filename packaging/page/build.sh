@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Makes celspan for web pages, which is the npm package celspan-web: one WebAssembly, its glue and
-# what it asks for; and, for the site alone, celspan-writers.wasm, the same with the writers of SVG,
-# Lottie and planes.
+# what it asks for; and, for the site alone, celspan-whole.wasm, which has all but what writes films
+# and plays footage: pictures, paintings, tools for drawings, and the writers of SVG, Lottie and
+# planes.
 #
 #   packaging/page/build.sh BUILD FOLDER     BUILD: a folder for what is compiled; FOLDER is deleted
 #                                            first
@@ -19,7 +20,9 @@ folder=$(cd "$2" && pwd)
 
 # compiler NAME CLANG OPTION...: the command of the cross file. Rows are drawn with -O2, because -O3
 # is larger and not faster here, and all else, which meson compiles with -Os, becomes as small as it
-# can be. Nothing is loaded at another address.
+# can be. Nothing is loaded at another address. Pairs of numbers are not joined to registers
+# (-fno-slp-vectorize), because clang 14 then changes what some of them become: an outline that was
+# traced had other corners.
 compiler() {
   cat >"$build/bin/$1" <<TEXT
 #!/bin/bash
@@ -31,7 +34,7 @@ for word; do
   *) words+=("\$word") ;;
   esac
 done
-exec $2 ${*:3} "\${words[@]}"
+exec $2 ${*:3} "\${words[@]}" -fno-slp-vectorize
 TEXT
   chmod +x "$build/bin/$1"
 }
@@ -80,7 +83,8 @@ link() {
     "$linked" -o "$folder/$1"
 }
 link celspan.wasm
-link celspan-writers.wasm "$meson/src/kit/page/libcelspan_writers.a" \
+link celspan-whole.wasm "$meson/src/kit/page/libcelspan_whole.a" \
+  "$build"/libraries/page/lib/lib{png16,jpeg}.a \
   --wrap=cs_file_{create,commit,again} # src/kit/page/writers.c
 cp "$top"/packaging/page/npm/{index.d.ts,README.md} "$meson/src/kit/lua/module/more.json" "$folder"
 for name in engine render; do # without the lines that are comments
@@ -92,11 +96,13 @@ version=$(sed -n "s/^  version: '\(.*\)',/\1/p" "$top/meson.build")
 sed "s/@VERSION@/$version/" "$top/packaging/page/npm/package.json.in" >"$folder/package.json"
 
 # What is linked in; FriBidi's licence (LGPL) wants a way to link another one, which is this script.
+# The package does not have the libraries of celspan-whole.wasm alone.
 cp "$top/LICENSE" "$folder/LICENSES"
-for library in lua5.4 harfbuzz fribidi libunibreak expat zlib; do
+for library in lua5.4 harfbuzz fribidi libunibreak expat zlib libpng1.6 libjpeg-turbo; do
   names=(debian/copyright LICENCE)
   [ "$library" != harfbuzz ] || names=(COPYING) # the other is of its tests and their fonts, too
   licence=$(cd "$build"/libraries/sources/"$library"-*/ && cat "${names[@]}" 2>/dev/null) || true
   [ -n "$licence" ] || { echo "there is no licence of $library" >&2 && exit 1; }
-  printf '\n======== %s\n\n%s\n' "$library" "$licence" >>"$folder/LICENSES"
+  [[ $library == lib[pj]* ]] && list=LICENSES-whole || list=LICENSES
+  printf '\n======== %s\n\n%s\n' "$library" "$licence" >>"$folder/$list"
 done

@@ -16,6 +16,7 @@ const LIMIT_MOST = 2 ** 53;
 // celspan_parameter_kind
 const KINDS = ["text", "file", "number", "boolean", "choice", "colour", "point", "ease"];
 const MEMORY_MOST = 2 ** 31 - PAGE;
+const CACHED_MOST = 2 ** 28, CACHED_SHARE = 4; // of the memory, for each of two caches
 const PNG = "/dev/png"; // of picture.c, which looks for it, but is not to find it
 const EXPORTS = ["memory", "open", "set", "run", "frame", "pixels", "png"];
 
@@ -263,7 +264,8 @@ export const open = async (given, { files = {}, now = () => performance.now() } 
         throw new Error(`celspan: steps and memory must be from 0 to 2^53, and room above 0, got ${
           steps}, ${most} and ${bytes}`);
       room_most = Math.min(bytes, MEMORY_MOST);
-      page = x.open(steps, Math.min(most, MEMORY_MOST));
+      page = x.open(steps, Math.min(most, MEMORY_MOST),
+        Math.min(room_most / CACHED_SHARE, CACHED_MOST));
       if (!page) throw new Error("celspan: there is no memory for a film");
       for (const [key, value] of Object.entries(set))
         lend([key, String(value)], (a, _, b) => check(x.set(page, a, b)));
@@ -319,7 +321,7 @@ export const open = async (given, { files = {}, now = () => performance.now() } 
         return memory.bytes().slice(address, address + size);
       });
     },
-    /** The file that `celspan render -o film.KIND` writes, where the module is celspan-writers.wasm:
+    /** The file that `celspan render -o film.KIND` writes, where the module is celspan-whole.wasm:
      * "svg", of the frame; "json" (Lottie) or "plane", of the film. Returns its bytes and, in `notes`,
      * sentences on what it could not keep. beat: gets the share that is done. */
     write(kind, width, height, beat = () => {}) {

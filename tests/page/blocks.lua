@@ -29,7 +29,8 @@ local function ask(block)
 end
 
 assert(os.execute(("rm -rf '%s' && mkdir -p '%s'"):format(folder, folder)))
-assert(os.execute(("cd scripts && cp -r drawings stage town type demo/line.tsv '%s'"):format(
+local FILES = "drawings paintings pencil pictures stage town type demo/line.tsv" -- in scripts/
+assert(os.execute(("cd scripts && cp -r %s '%s'"):format(FILES,
   system.output("realpath '" .. folder .. "'"):match "[^\n]+")))
 local pages = { "README.md" }
 for path in system.output "ls docs/*.md":gmatch "[^\n]+" do pages[#pages + 1] = path end

@@ -26,7 +26,7 @@ const pack = (bytes) => ({
     [zlib.constants.BROTLI_PARAM_SIZE_HINT]: bytes.length } }).length });
 
 console.log("file                    bytes      gzip    brotli");
-for (const name of ["celspan.wasm", "celspan-writers.wasm", "engine.mjs", "more.json"]) {
+for (const name of ["celspan.wasm", "celspan-whole.wasm", "engine.mjs", "more.json"]) {
   const bytes = fs.readFileSync(`${folder}/${name}`), packed = pack(bytes);
   console.log(name.padEnd(20), ...[bytes.length, packed.gzip, packed.brotli]
     .map((size) => String(size).padStart(9)));

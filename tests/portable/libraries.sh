@@ -172,6 +172,33 @@ build_unibreak() {
   describe libunibreak 1.1 unibreak
 }
 
+build_png() {
+  cd "$folder"/sources/libpng1.6-*/
+  cp scripts/pnglibconf.h.prebuilt "$out/include/pnglibconf.h"
+  options=(-w)
+  build png16 png.c pngerror.c pngget.c pngmem.c pngread.c pngrio.c pngrtran.c pngrutil.c pngset.c \
+    pngtrans.c
+  cp png.h pngconf.h "$out/include"
+  describe libpng 1.6.39 png16
+}
+
+# What reads, without instructions of a processor.
+build_jpeg() {
+  cd "$folder"/sources/libjpeg-turbo-*/
+  printf '#define %s\n' 'JPEG_LIB_VERSION 62' 'LIBJPEG_TURBO_VERSION 2.1.5' 'BITS_IN_JSAMPLE 8' \
+    'LIBJPEG_TURBO_VERSION_NUMBER 2001005' 'D_ARITH_CODING_SUPPORTED 1' \
+    'MEM_SRCDST_SUPPORTED 1' >"$out/include/jconfig.h"
+  printf '#define %s\n' 'BUILD ""' 'INLINE inline' 'THREAD_LOCAL' 'PACKAGE_NAME "libjpeg-turbo"' \
+    'VERSION "2.1.5"' 'SIZEOF_SIZE_T 4' 'FALLTHROUGH' >"$out/include/jconfigint.h"
+  sed s/@COPYRIGHT_YEAR@/1991-2023/ jversion.h.in >"$out/include/jversion.h"
+  options=(-w)
+  build jpeg jd{api{min,std},arith,atasrc,coefct,color,dctmgr,huff,icc,input,mainct,marker}.c \
+    jd{master,merge,phuff,postct,sample}.c jidct{flt,fst,int,red}.c jmem{mgr,nobs}.c \
+    j{aricom,comapi,error,quant1,quant2,simd_none,utils}.c
+  cp jpeglib.h jerror.h jmorecfg.h "$out/include"
+  describe libjpeg 2.1.5 jpeg
+}
+
 # The folder is the root of the unpacked packages, and what is built in it comes first.
 write_properties() {
   local own=$out/lib/pkgconfig
@@ -189,12 +216,14 @@ write_properties() {
 fetch_sources zlib lua5.4
 build_libraries
 if [ "$name" = page ]; then
-  fetch_sources expat harfbuzz fribidi
+  fetch_sources expat harfbuzz fribidi libpng1.6 libjpeg-turbo
   fetch_unibreak || lack libunibreak
   build_expat
   build_harfbuzz
   build_fribidi
   build_unibreak
+  build_png
+  build_jpeg
 fi
 [ -z "$debian" ] || unpack_packages
 write_properties >"$out/libraries.txt"

@@ -12,10 +12,14 @@
 // that takes too long is ended, and the next question begins another one. Nothing is loaded before
 // the first question.
 const SECONDS = 8; // for one picture
-export const WRITERS = "celspan-writers.wasm"; // the engine that has engine.write, too
+export const WHOLE = "celspan-whole.wasm"; // the engine that has what the first one lacks
+// What the first one lacks: as scripts ask for it, mostly, and as its messages say.
+const WANTS = /celspan\.(ink|layers|oca|relight|trace|track)|\.(jpe?g|kra|ora|plane|png|psd)["']/;
+const LACKS = /this celspan has no (?!celspan\.render)/;
 const NO_ENGINE = "This browser has no WebAssembly, or the page forbids it: the picture stays still.";
 
 let worker, last = 0;
+let isWhole = false; // the engine that is asked: from the first question on that needs it
 const modules = {}; // promises, by the names of their files
 const waiting = new Map(); // the questions without an answer, by their numbers
 const files = new Map(); // contents that readers gave, by path
@@ -79,13 +83,20 @@ export const prepare = (name) =>
   modules[name] ??= compiled(name).catch((error) => { delete modules[name]; throw error; });
 
 const ask = async (question, progress) => {
-  const loading = prepare(question.call === "write" ? WRITERS : "celspan.wasm");
+  isWhole ||= question.call === "write" || WANTS.test(question.source);
+  const wasWhole = isWhole, loading = prepare(isWhole ? WHOLE : "celspan.wasm");
   worker ??= begin(); // is loaded while the engine is compiled
-  const whole = { id: ++last, module: await loading, ...question };
-  return new Promise((resolve, reject) => {
-    waiting.set(whole.id, { question: whole, resolve, reject, progress });
-    send(whole);
-  });
+  const complete = { id: ++last, module: await loading, isWhole: wasWhole, ...question };
+  try {
+    return await new Promise((resolve, reject) => {
+      waiting.set(complete.id, { question: complete, resolve, reject, progress });
+      send(complete);
+    });
+  } catch (error) {
+    if (wasWhole || !LACKS.test(error.message)) throw error;
+    isWhole = true;
+    return ask(question, progress);
+  }
 };
 
 /** Adds the line that a message names. */

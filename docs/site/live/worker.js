@@ -5,7 +5,7 @@ import { open } from "./engine.js";
 const LIMITS = { steps: 5e7, memory: 128 * 2 ** 20 };
 
 let engine, ready = Promise.resolve(), running = ""; // running: the script whose film the engine has
-let hasWriters = false; // the engine, which then stays
+let hasAll = false; // the engine, which then stays
 let more, names; // the second file of Lua modules; the names of files/
 const asked = new Set(), given = {}; // paths; files of readers
 
@@ -92,12 +92,12 @@ const answer = async (question) => {
   }
 };
 
-const reply = async ({ module, ...question }) => {
+const reply = async ({ module, isWhole, ...question }) => {
   const { id } = question;
   try {
-    if (!engine || question.call === "write" && !hasWriters) {
+    if (!engine || isWhole && !hasAll) {
       engine = await open(module, { files: given });
-      hasWriters = question.call === "write";
+      hasAll = isWhole;
       running = "";
       asked.clear();
     }

@@ -1,7 +1,7 @@
 // The playground: a live script of its own (live/live.js), with examples, values, files that are
 // dropped, its address, and what can be saved of it.
 import { element } from "../live/field.js";
-import { WRITERS, film, give, prepare, stop } from "../live/film.js";
+import { WHOLE, film, give, prepare, stop } from "../live/film.js";
 import { Live } from "../live/live.js";
 import { RATE, mix } from "./export.js";
 import { fragment, shared } from "./share.js";
@@ -12,7 +12,7 @@ const KINDS = { png: "Picture (PNG)", mp4: "Film with sound (MP4)", webm: "Film 
                 apng: "Film (APNG)", svg: "Drawing (SVG)", json: "Film (Lottie)", plane: "Film (plane)" };
 const VIDEOS = ["mp4", "webm"];
 const WRITTEN = ["svg", "json", "plane"]; // by an engine of its own
-const LOADING = "The writers of SVG, Lottie and planes are loaded.";
+const LOADING = "The part of the engine that writes SVG, Lottie and planes is loaded.";
 const STILLS = ["png", "svg"], SIZELESS = ["json", "plane"];
 const SCALES = [1, 2, 0.5, 0.25];
 
@@ -136,7 +136,7 @@ const megabytes = bytes => `${(bytes / 1e6).toFixed(2)} MB`;
 /** A file of another engine, and what is said of it. */
 async function write(kind, width, height) {
   say(LOADING);
-  await prepare(WRITERS);
+  await prepare(WHOLE);
   say("");
   if (wasStopped) throw new Error(STOPPED);
   return now().write({ kind, frame: live.frame, width, height },

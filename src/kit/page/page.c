@@ -16,9 +16,6 @@
 #include "page/page.h"
 #include "page/picture.h"
 
-/* A tab has less memory than a machine. */
-enum { CACHED_BYTES = 64 << 20 };
-
 /* What there is no memory for is not shown. */
 static void show(void *user, const char *text, size_t size) {
   page *p = user;
@@ -59,14 +56,14 @@ static int keep_callers(lua_State *L) {
   return 0;
 }
 
-/* steps, memory: as in celspan_lua_limits, of a run and of a frame; 0: the default. NULL: memory
- * is short. */
-TO_PAGE(open) page *cs_page_open(double steps, double memory) {
+/* steps, memory: as in celspan_lua_limits, of a run and of a frame; 0: the default. cached: bytes
+ * of pictures that are kept, and of what is defocused and mapped. NULL: memory is short. */
+TO_PAGE(open) page *cs_page_open(double steps, double memory, double cached) {
   page *p = calloc(1, sizeof *p);
   if (!p)
     return NULL;
   celspan_context_desc desc = CELSPAN_CONTEXT_DESC;
-  desc.picture_bytes = desc.defocus_bytes = CACHED_BYTES;
+  desc.picture_bytes = desc.defocus_bytes = (size_t)cached;
   bool is_open =
       celspan_context_create(&desc, &p->context) == CELSPAN_OK && (p->L = luaL_newstate());
   if (is_open)

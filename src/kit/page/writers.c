@@ -1,4 +1,4 @@
-/* What celspan-writers.wasm has beyond celspan.wasm: films as the files of `celspan render`, SVG,
+/* What celspan-whole.wasm has beyond celspan.wasm: films as the files of `celspan render`, SVG,
  * Lottie and planes.
  *
  *   write --> writers.lua --> svg, plane: a cs_file --> memory --commit--> save of engine.mjs

@@ -1,5 +1,6 @@
 /* What a celspan of web pages leaves out, because few scripts need it and every page would pay for
- * it: these functions take the places of those in the files that meson.build lists as heavy. */
+ * it: these functions take the places of those in the files that meson.build lists as heavy.
+ * celspan-whole.wasm lacks celspan.render alone. */
 #include "lua/bind/caller.h"
 #include "lua/module/native.h"
 
@@ -8,16 +9,16 @@
     return cs_caller_error(L, "this celspan has no %s: it is that of web pages", what);            \
   }
 
-#ifndef CS_HAS_PLANES /* celspan-writers.wasm has them */
+LACKS(cs_render_make, "celspan.render")
+
+#ifndef CS_IS_WHOLE
+
 #define LACKS_PLANES(name) LACKS(name, "planes")
 LACKS_PLANES(cs_plane_make)
 LACKS_PLANES(cs_plane_open_file)
 LACKS_PLANES(cs_parcels_list)
 
 void cs_plane_open(lua_State *L) { (void)L; }
-#endif
-
-LACKS(cs_render_make, "celspan.render")
 
 #define LACKS_PAINTINGS(name) LACKS(name, "paintings and archives")
 LACKS_PAINTINGS(cs_painting_read)
@@ -68,3 +69,5 @@ LACKS_RELIGHTING(cs_relight_read)
 LACKS_RELIGHTING(cs_stack_make)
 LACKS_RELIGHTING(cs_stack_lights)
 LACKS_RELIGHTING(cs_stack_light)
+
+#endif

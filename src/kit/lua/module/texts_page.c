@@ -22,6 +22,10 @@ static void load_file(lua_State *L, const char *folder, const char *file) {
 void cs_texts_load(lua_State *L, const char *folder, const char *file) {
   if (cs_built_in_find(cs_module_texts, file))
     cs_built_in_load(L, cs_module_texts, folder, file);
+#ifdef CS_IS_WHOLE
+  else if (cs_built_in_find(cs_whole_texts, file))
+    cs_built_in_load(L, cs_whole_texts, folder, file);
+#endif
   else
     load_file(L, folder, file);
 }
