@@ -83,17 +83,19 @@ export const prepare = (name) =>
   modules[name] ??= compiled(name).catch((error) => { delete modules[name]; throw error; });
 
 const ask = async (question, progress) => {
-  isWhole ||= question.call === "write" || WANTS.test(question.source);
-  const wasWhole = isWhole, loading = prepare(isWhole ? WHOLE : "celspan.wasm");
+  const isAll = isWhole || question.call === "write" || WANTS.test(question.source);
+  const loading = prepare(isAll ? WHOLE : "celspan.wasm");
   worker ??= begin(); // is loaded while the engine is compiled
-  const complete = { id: ++last, module: await loading, isWhole: wasWhole, ...question };
+  const complete = { id: ++last, module: await loading, isWhole: isAll, ...question };
+  isWhole ||= isAll;
   try {
     return await new Promise((resolve, reject) => {
       waiting.set(complete.id, { question: complete, resolve, reject, progress });
       send(complete);
     });
   } catch (error) {
-    if (wasWhole || !LACKS.test(error.message)) throw error;
+    if (isAll || !LACKS.test(error.message)) throw error;
+    await prepare(WHOLE);
     isWhole = true;
     return ask(question, progress);
   }
