@@ -232,7 +232,7 @@ function pictureBeside(tokens, at, name) {
 }
 
 // What the engine of web pages, or a page, does not have.
-const LACKING = /\/usr\/share\/fonts|stage\.(dance|noto)|plate\.|celspan\.sound/;
+const LACKING = /\/usr\/share\/fonts|stage\.noto|plate\.|celspan\.sound/;
 const READ = ["drawings", "paintings", "pencil", "pictures", "stage", "type", "demo/line.tsv",
   "town/window.lua"]; // in scripts/
 const read = new Map(); // by scripts: the content of each file

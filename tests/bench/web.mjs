@@ -8,6 +8,7 @@ import { spawnSync } from "child_process";
 import fs from "fs";
 import path from "path";
 import { pathToFileURL } from "url";
+import { withFiles } from "../page/files.mjs";
 
 const FRAMES = 48, ROUNDS = 3;
 const FILMS = [
@@ -38,21 +39,12 @@ const processor = (work) => {
 const start = async (script, first) => {
   const engine = await open(module), source = fs.readFileSync(script, "utf8");
   const run = () => engine.run(source, { name: script, steps: 1e9, memory: 2 ** 30 });
-  for (;;) {
-    try {
-      run();
-      engine.frame(first);
-      engine.pixels(...size);
-      return [engine, run()];
-    } catch (error) {
-      const isFile = (name) => fs.statSync(name, { throwIfNoEntry: false })?.isFile();
-      const found = engine.missing().map((name) => [name, name.slice(1)])
-        .map(([name, own]) => [name, more[own] ?? [own, name].filter(isFile).map((file) => fs.readFileSync(file))[0]])
-        .filter(([, content]) => content !== undefined);
-      if (found.length === 0) throw error;
-      for (const [name, content] of found) engine.file(name, content);
-    }
-  }
+  withFiles(engine, more, () => {
+    run();
+    engine.frame(first);
+    engine.pixels(...size);
+  });
+  return [engine, run()];
 };
 
 const inPage = async (script, first) => {

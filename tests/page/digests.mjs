@@ -9,6 +9,7 @@
 import fs from "fs";
 import path from "path";
 import { pathToFileURL } from "url";
+import { withFiles } from "./files.mjs";
 
 const [folder, questions, every = "1"] = process.argv.slice(2);
 const { open } = await import(pathToFileURL(path.resolve(folder, "engine.mjs")));
@@ -24,16 +25,6 @@ const frames_of = (text) => text.split(",").flatMap((part) => {
   return all;
 });
 
-/** The file of a path that was looked for: from the second file of Lua, from the disk, or from the
- * folder that a question allows. */
-const content_of = (name, allowed) => {
-  const own = name.replace(/^[/]+/, "");
-  if (own in more) return more[own];
-  for (const place of [own, name, `${allowed}/${own}`])
-    if (fs.existsSync(place) && fs.statSync(place).isFile()) return fs.readFileSync(place);
-  return undefined;
-};
-
 /** The lines of `celspan render --hash`. */
 const answer = (engine, script, options) => {
   const film = engine.run(fs.readFileSync(script, "utf8"), { name: script });
@@ -45,27 +36,17 @@ const answer = (engine, script, options) => {
   }).join("\n");
 };
 
-/** The same, again for as long as files are given that were missing. */
 const ask = async (module, script, options) => {
   const engine = await open(module);
-  for (;;) {
-    let given = false, error;
-    try { return answer(engine, script, options); } catch (caught) { error = caught; }
-    for (const name of engine.missing()) {
-      const content = content_of(name, options["--allow"]);
-      if (content !== undefined) engine.file(name, content);
-      given ||= content !== undefined;
-    }
-    if (!given) throw error;
-  }
+  return withFiles(engine, more, () => answer(engine, script, options), options["--allow"]);
 };
 
+const LACKS = /this celspan has no |needs the module |by the program celspan alone/;
 const askAny = (script, options) => ask(modules[0], script, options).catch((error) => {
   if (!LACKS.test(error.message)) throw error;
   return ask(modules[1], script, options);
 });
 
-const LACKS = /this celspan has no |needs the module |by the program celspan alone/;
 const LEAST = 50; // answers that are equal, when all questions are asked
 const counts = { equal: 0, different: 0, skipped: 0 };
 const blocks = fs.readFileSync(questions, "utf8").trim().split(/\n\n+/);

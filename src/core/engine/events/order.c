@@ -77,8 +77,8 @@ static int32_t intersection_height(int32_t top, int32_t foot, double above, doub
 }
 
 /* cs_order_ahead mostly goes along: with clip art a comparison passes seven points. Measured, and
- * not faster: x carried from point to point, whole-number products in place of divisions,
- * selections in place of branches, belts of half the height. */
+ * not faster: x at the top of a segment kept from the one before, whole-number products in place of
+ * divisions, selections in place of branches, belts of half the height. */
 
 /* Whether a whole segment lies left of another one. */
 static inline bool is_beside(const cs_course_point *p, const cs_course_point *q) {
